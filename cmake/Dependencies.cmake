@@ -1,0 +1,21 @@
+# Every library comes from the system (Debian 12 package in brackets); docs/dependencies.md says why each was chosen.
+find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED)
+find_package(glm REQUIRED)                                   # [libglm-dev]
+find_package(fmt REQUIRED)                                   # [libfmt-dev]
+find_package(spdlog REQUIRED)                                # [libspdlog-dev]
+find_package(CLI11 REQUIRED)                                 # [libcli11-dev]
+find_package(nlohmann_json REQUIRED)                         # [nlohmann-json3-dev]
+find_package(simdjson REQUIRED)                              # [libsimdjson-dev]
+find_package(CGAL REQUIRED)                                  # [libcgal-dev]
+find_package(TBB REQUIRED)                                   # [libtbb-dev]
+find_package(embree 3 REQUIRED)                              # [libembree-dev]
+find_package(PNG REQUIRED)                                   # [libpng-dev]
+find_package(HDF5 REQUIRED COMPONENTS C)                     # [libhdf5-dev]
+find_package(MPI REQUIRED COMPONENTS C)                      # [libopenmpi-dev]
+find_package(Boost REQUIRED)                                 # [libboost-dev] CRC only
+find_package(GTest REQUIRED)                                 # [libgtest-dev]
+pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)  # [libtomlplusplus-dev]
+pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)      # [libepoxy-dev]
+pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)          # [libegl-dev]
+pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash) # [libxxhash-dev]

@@ -1,0 +1,59 @@
+// Shards in, one HDF5 file out.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pvs/visibility.h"
+
+namespace veduta {
+
+/// Where a run directory keeps things (DESIGN §8).
+struct RunPaths {
+  std::filesystem::path directory;
+  std::filesystem::path settings() const { return directory / "run.toml"; }
+  std::filesystem::path fingerprint() const { return directory / "fingerprint"; }
+  std::filesystem::path lock() const { return directory / "lock"; }
+  std::filesystem::path log() const { return directory / "log.jsonl"; }
+  std::filesystem::path prepared() const { return directory / "prepared"; }
+  std::filesystem::path city() const { return directory / "prepared" / "city.h5"; }
+  std::filesystem::path shards() const { return directory / "shards"; }
+  std::filesystem::path report() const { return directory / "report.json"; }
+  std::filesystem::path result() const { return directory / "city.pvs.h5"; }
+};
+
+/// What is known of each cell from the journal: where its record lies.
+struct JournalEntry {
+  int32_t shard = -1;        ///< index into Journal::shards, -1: not baked yet
+  uint64_t offset = 0;
+  CellStatus status = CellStatus::baked;
+};
+struct Journal {
+  std::vector<std::filesystem::path> shards;  ///< by name
+  std::vector<JournalEntry> cells;            ///< [C]
+  std::vector<std::string> renderers;         ///< distinct, sorted
+  uint64_t done = 0;                          ///< cells with a record
+  uint64_t all_visible = 0;                   ///< of them, recorded all visible
+  uint64_t torn_bytes = 0;                    ///< cut tails, over all shards
+  uint64_t duplicates = 0;                    ///< cells answered more than once, equally
+};
+
+/// Scans every shard of a run. The first record of a cell counts; a `baked` one replaces an `all_visible` one.
+/// \throw Error(bad_input) for damage in the middle, a cell number out of range, or two different answers for a cell;
+///   Error(other_job) for a shard of another job.
+Journal read_journal(const RunPaths& run, const std::string& fingerprint, uint32_t cell_count);
+
+struct MergeResult {
+  std::string content_digest;
+  uint64_t cells = 0, baked = 0, all_visible = 0, unfinished = 0, bytes = 0;
+  double elapsed_s = 0;
+};
+
+/// Merges a run directory into `output` (default: RunPaths::result()). Cells without a record are an error unless `partial`,
+/// which records them all visible. Safe at any time: the old file stays until the new one is whole and checked.
+/// \throw Error(stopped_early) when cells are missing and not `partial`; else as read_journal and write_pvs.
+MergeResult merge_run(const RunPaths& run, const std::filesystem::path& output, bool partial);
+
+}  // namespace veduta

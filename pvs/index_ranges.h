@@ -1,0 +1,45 @@
+// Drawing without lists per slice: five orders of an object's triangles, in which each byte is one contiguous range
+// (DESIGN §6; in place of the index buffer per slice of thesis §5.1.2, Algorithm 5.1).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "pvs/city.h"
+#include "pvs/visibility.h"
+
+namespace veduta {
+
+/// The orders, by the key that sorts an object's triangles.
+enum class Order : uint8_t { x_first = 0, x_last = 1, y_first = 2, y_last = 3, z_last = 4 };
+inline constexpr size_t order_count = 5;
+
+/// A run of triangles in one order: elements [begin, end) of IndexRanges::order(o).
+struct TriangleRange {
+  Order order = Order::z_last;
+  uint64_t begin = 0, end = 0;
+};
+
+/// Up to two ranges: what the z byte adds and what the x or y byte adds. They may overlap.
+struct ObjectRanges {
+  std::array<TriangleRange, 2> range;
+  uint8_t count = 0;
+};
+
+/// The five orders of a whole city. Object i's triangles stay in [triangle_begin, triangle_end) in each of them. Keys are
+/// sorted so that visible triangles come first: ascending for *_first, descending for *_last.
+class IndexRanges {
+ public:
+  explicit IndexRanges(const City& city);
+  /// Triangle numbers in this order, [T].
+  const std::vector<uint32_t>& order(Order o) const { return orders_[static_cast<size_t>(o)]; }
+  /// The ranges that draw exactly the triangles for which draws(index, slices) holds. O(log triangles of the object).
+  ObjectRanges ranges(uint32_t object, VisibilityIndex index) const;
+
+ private:
+  const City& city_;
+  std::array<std::vector<uint32_t>, order_count> orders_;
+};
+
+}  // namespace veduta

@@ -1,0 +1,60 @@
+// Frames between a shepherd and its worker child, over the child's standard input and output.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace veduta {
+
+/// What a frame says. Control payloads are JSON objects with the members listed; cell_baked carries an encoded CellRecord.
+enum class Verb : uint32_t {
+  // shepherd to worker
+  prepare = 1,      ///< {"directory"}: read run.toml there, make prepared/ (atomically), answer `prepared`
+  open = 2,         ///< {"directory"}: load prepared/, make a GL context, answer `opened`
+  bake = 3,         ///< {"cells": [u32...]}: answer one `cell_baked` per cell, in order, then `lease_done`
+  quit = 4,         ///< {}: leave with status 0 (closing standard input means the same)
+  // worker to shepherd
+  hello = 16,       ///< {"pid", "version"}: sent first
+  progress = 17,    ///< {"stage", "done", "total"}: during `prepare`; also a sign of life
+  prepared = 18,    ///< {"cells", "objects", "triangles", "notes": [text...]}
+  opened = 19,      ///< {"renderer", "cells"}
+  cell_baked = 20,  ///< encode(CellRecord)
+  lease_done = 21,  ///< {}
+  failed = 22,      ///< {"status", "message"}: an Error; the worker then leaves with that status
+};
+
+/// On the wire: u32 magic, u32 verb, u64 payload length, payload; little-endian.
+struct Frame {
+  Verb verb{};
+  std::vector<std::byte> payload;
+  std::string text() const { return {reinterpret_cast<const char*>(payload.data()), payload.size()}; }
+};
+
+inline constexpr uint32_t frame_magic = 0x31544456;        // "VDT1"
+inline constexpr uint64_t frame_payload_limit = 1u << 28;  // 256 MiB: more is a damaged stream
+inline constexpr int protocol_version = 1;
+
+std::vector<std::byte> encode_frame(Verb verb, const std::byte* payload, size_t size);
+std::vector<std::byte> encode_frame(Verb verb, const std::string& json);
+
+/// Blocking. nullopt at end of stream. \throw Error(defect) on a damaged stream, Error(input_output) on a read error.
+std::optional<Frame> read_frame(int descriptor);
+/// Blocking; writes all. \throw Error(input_output).
+void write_frame(int descriptor, const std::vector<std::byte>& encoded);
+
+/// Takes bytes as they come (for a shepherd that polls several children) and gives whole frames out.
+class FrameBuffer {
+ public:
+  void append(const std::byte* data, size_t size) { bytes_.insert(bytes_.end(), data, data + size); }
+  /// \throw Error(defect) on a damaged stream.
+  std::optional<Frame> next();
+
+ private:
+  std::vector<std::byte> bytes_;
+  size_t begin_ = 0;
+};
+
+}  // namespace veduta
