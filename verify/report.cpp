@@ -1,0 +1,100 @@
+// The report as people and programs read it.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "verify/verify.h"
+
+namespace veduta {
+namespace {
+
+const std::string& object_name(const PvsFile& file, uint32_t object) {
+  return file.city.scene.objects[object].name;
+}
+
+std::array<float, 3> as_array(const glm::vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+std::string as_text(const glm::vec3& v) {
+  return fmt::format("({:.9g}, {:.9g}, {:.9g})", v.x, v.y, v.z);
+}
+
+}  // namespace
+
+std::string describe(const VerifyReport& report, const PvsFile& file) {
+  std::string text = fmt::format(
+      "verified         {} of {} cells ({} without an eye point), {} rays, {} hits, {:.1f} s, {:.2f} million "
+      "rays/s\n",
+      report.cells_checked, file.city.cells.size(), report.cells_without_eye, report.rays, report.hits,
+      report.elapsed_s, report.rays_per_second / 1e6);
+  text += fmt::format(
+      "false invisible  {} objects, {} triangles; solid angle {:.3g} mean, {:.3g} worst ({} grazing hits "
+      "settled exactly)\n",
+      report.false_invisible_objects, report.false_invisible_triangles,
+      report.false_invisible_solid_angle_mean, report.false_invisible_solid_angle_worst,
+      report.grazing_settled);
+  text += fmt::format(
+      "over-estimate    {:.2f}x in objects (median cell {:.2f}x, worst {:.2f}x), {:.2f}x in triangles\n",
+      report.overestimate_objects, report.overestimate_objects_median, report.overestimate_objects_worst,
+      report.overestimate_triangles);
+  text += fmt::format(
+      "a cell lists     {:.1f} objects, {:.1f} triangles; rays saw {:.1f} objects, {:.1f} triangles\n",
+      report.mean_pvs_objects, report.mean_pvs_triangles, report.mean_seen_objects,
+      report.mean_seen_triangles);
+  text += fmt::format("slices draw      {:.1f} % of the triangles of the listed objects\n",
+                      100.0 * report.drawn_of_whole_objects);
+  text +=
+      "What rays saw is a lower bound of what can be seen, so the true over-estimate is at most the one "
+      "printed.\n";
+  for (const FalseInvisible& example : report.examples)
+    text += fmt::format(
+        "FALSE INVISIBLE  cell {}: object {} \"{}\", triangle {}: eye {}, direction {}, hit {} (m from the "
+        "origin)\n",
+        example.cell, example.object, object_name(file, example.object), example.triangle,
+        as_text(example.eye), as_text(example.direction), as_text(example.hit));
+  text += report.passed() ? "passed: no ray met a triangle that its row does not draw\n"
+                          : "FAILED: rays met triangles that their rows do not draw\n";
+  return text;
+}
+
+std::string describe_json(const VerifyReport& report, const PvsFile& file) {
+  nlohmann::ordered_json json = {
+      {"passed", report.passed()},
+      {"content_digest", file.content_digest},
+      {"cells", file.city.cells.size()},
+      {"cells_checked", report.cells_checked},
+      {"cells_without_eye", report.cells_without_eye},
+      {"rays", report.rays},
+      {"hits", report.hits},
+      {"grazing_settled", report.grazing_settled},
+      {"false_invisible_objects", report.false_invisible_objects},
+      {"false_invisible_triangles", report.false_invisible_triangles},
+      {"false_invisible_solid_angle_mean", report.false_invisible_solid_angle_mean},
+      {"false_invisible_solid_angle_worst", report.false_invisible_solid_angle_worst},
+      {"seen_is_a_lower_bound", true},
+      {"overestimate_objects", report.overestimate_objects},
+      {"overestimate_objects_median", report.overestimate_objects_median},
+      {"overestimate_objects_worst", report.overestimate_objects_worst},
+      {"overestimate_triangles", report.overestimate_triangles},
+      {"mean_pvs_objects", report.mean_pvs_objects},
+      {"mean_seen_objects", report.mean_seen_objects},
+      {"mean_pvs_triangles", report.mean_pvs_triangles},
+      {"mean_seen_triangles", report.mean_seen_triangles},
+      {"drawn_of_whole_objects", report.drawn_of_whole_objects},
+      {"elapsed_s", report.elapsed_s},
+      {"rays_per_second", report.rays_per_second},
+  };
+  json["examples"] = nlohmann::ordered_json::array();
+  for (const FalseInvisible& example : report.examples)
+    json["examples"].push_back({{"cell", example.cell},
+                                {"object", example.object},
+                                {"name", object_name(file, example.object)},
+                                {"triangle", example.triangle},
+                                {"eye_m", as_array(example.eye)},
+                                {"direction", as_array(example.direction)},
+                                {"hit_m", as_array(example.hit)}});
+  return json.dump(2) + "\n";
+}
+
+}  // namespace veduta
