@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace veduta {
@@ -51,6 +52,9 @@ Settings parse_settings(const std::string& text, const std::string& name, const 
 
 /// The resolved configuration, every key with its value, in a fixed order: what `run.toml` and the file hold.
 std::string to_toml(const Settings& settings);
+
+/// Every key path ("cells.size") with its value as TOML, in the same order: what the fingerprint of a job is made of.
+std::vector<std::pair<std::string, std::string>> list_settings(const Settings& settings);
 
 /// Every key with type, range, default and help, for `veduta bake --help-config` and docs/configuration.md.
 std::string describe_settings();
