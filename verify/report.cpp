@@ -1,6 +1,7 @@
 // The report as people and programs read it.
 #include <fmt/format.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "verify/verify.h"
@@ -29,15 +30,17 @@ std::string describe(const VerifyReport& report, const PvsFile& file) {
       report.cells_checked, file.city.cells.size(), report.cells_without_eye, report.rays, report.hits,
       report.elapsed_s, report.rays_per_second / 1e6);
   text += fmt::format(
-      "false invisible  {} objects, {} triangles; solid angle {:.3g} mean, {:.3g} worst ({} grazing hits "
-      "settled exactly)\n",
+      "false invisible  {} objects, {} triangles; solid angle {:.3g} mean, {:.3g} worst eye ({} more "
+      "hits cleared by exact arithmetic)\n",
       report.false_invisible_objects, report.false_invisible_triangles,
       report.false_invisible_solid_angle_mean, report.false_invisible_solid_angle_worst,
       report.grazing_settled);
   text += fmt::format(
-      "over-estimate    {:.2f}x in objects (median cell {:.2f}x, worst {:.2f}x), {:.2f}x in triangles\n",
+      "over-estimate    {:.2f}x in objects (median cell {:.2f}x, worst {:.2f}x), {:.2f}x in buildings, "
+      "{:.2f}x in "
+      "triangles\n",
       report.overestimate_objects, report.overestimate_objects_median, report.overestimate_objects_worst,
-      report.overestimate_triangles);
+      report.overestimate_buildings, report.overestimate_triangles);
   text += fmt::format(
       "a cell lists     {:.1f} objects, {:.1f} triangles; rays saw {:.1f} objects, {:.1f} triangles\n",
       report.mean_pvs_objects, report.mean_pvs_triangles, report.mean_seen_objects,
@@ -53,8 +56,11 @@ std::string describe(const VerifyReport& report, const PvsFile& file) {
         "origin)\n",
         example.cell, example.object, object_name(file, example.object), example.triangle,
         as_text(example.eye), as_text(example.direction), as_text(example.hit));
-  text += report.passed() ? "passed: no ray met a triangle that its row does not draw\n"
-                          : "FAILED: rays met triangles that their rows do not draw\n";
+  if (report.rays == 0)
+    text += "FAILED: nothing was checked: no sampled cell has a point where a viewer can be\n";
+  else
+    text += report.passed() ? "passed: no ray met a triangle that its row does not draw\n"
+                            : "FAILED: rays met triangles that their rows do not draw\n";
   return text;
 }
 
@@ -76,6 +82,7 @@ std::string describe_json(const VerifyReport& report, const PvsFile& file) {
       {"overestimate_objects", report.overestimate_objects},
       {"overestimate_objects_median", report.overestimate_objects_median},
       {"overestimate_objects_worst", report.overestimate_objects_worst},
+      {"overestimate_buildings", report.overestimate_buildings},
       {"overestimate_triangles", report.overestimate_triangles},
       {"mean_pvs_objects", report.mean_pvs_objects},
       {"mean_seen_objects", report.mean_seen_objects},

@@ -11,9 +11,9 @@
 namespace veduta {
 
 struct VerifyOptions {
-  uint32_t cells = 64;            ///< sampled without replacement; all, when the file has fewer
+  uint32_t cells = 64;  ///< sampled without replacement; all, when the file has fewer
   uint64_t rays_per_cell = 1'000'000;
-  uint32_t eyes_per_cell = 64;    ///< corners, edges, faces and inside (Halton)
+  uint32_t eyes_per_cell = 64;  ///< corners, edges, faces and inside (Halton)
   uint64_t seed = 1;
 };
 
@@ -26,22 +26,29 @@ struct FalseInvisible {
 
 struct VerifyReport {
   uint32_t cells_checked = 0, cells_without_eye = 0;
-  uint64_t rays = 0, hits = 0, grazing_settled = 0;
-  // false invisible: distinct (cell, object) and (cell, triangle) pairs, and the share of solid angle (0..1) of the rays
+  uint64_t rays = 0, hits = 0;
+  uint64_t grazing_settled =
+      0;  ///< hits on undrawn triangles in float arithmetic that exact arithmetic did not confirm
+  // false invisible: distinct (cell, object) and (cell, triangle) pairs; and the share of solid angle (0..1),
+  // its mean over cells and its worst over eye points
   uint64_t false_invisible_objects = 0, false_invisible_triangles = 0;
   double false_invisible_solid_angle_mean = 0, false_invisible_solid_angle_worst = 0;
-  std::vector<FalseInvisible> examples;        ///< at most 16, the nearest first
-  // over-estimate: PVS over what was seen (a lower bound of what can be seen), summed over cells; and per-cell spread
-  double overestimate_objects = 0, overestimate_triangles = 0;
+  std::vector<FalseInvisible> examples;  ///< at most 16, one a cell and object, the nearest first
+  // over-estimate: PVS over what was seen (a lower bound of what can be seen), summed over cells; and
+  // per-cell spread
+  double overestimate_objects = 0, overestimate_buildings = 0, overestimate_triangles = 0;
   double overestimate_objects_median = 0, overestimate_objects_worst = 0;
   double mean_pvs_objects = 0, mean_seen_objects = 0, mean_pvs_triangles = 0, mean_seen_triangles = 0;
-  double drawn_of_whole_objects = 0;           ///< triangles drawn with slices over triangles of the listed objects
+  double drawn_of_whole_objects = 0;  ///< triangles drawn with slices over triangles of the listed objects
   double elapsed_s = 0, rays_per_second = 0;
-  bool passed() const { return false_invisible_objects == 0 && false_invisible_triangles == 0; }
+  /// A check that shot no ray has not passed.
+  bool passed() const { return rays > 0 && false_invisible_objects == 0 && false_invisible_triangles == 0; }
 };
 
-/// Eye points are taken where a viewer can be: in navigable space, or within one seed of it with nothing in between.
-/// Deterministic for a seed, whatever the number of threads.
+/// Eye points are taken where a viewer can be: in navigable space, or within one seed of it with nothing in
+/// between. Half of the rays go all over the sphere, half at what the row does not draw; solid angles are
+/// estimated from the first half. Deterministic for a seed, whatever the number of threads. `progress` is
+/// called from one thread at a time. \throw Error(bad_input) when the scene has no triangle.
 VerifyReport verify(const PvsFile& file, const VerifyOptions& options,
                     const std::function<void(uint32_t done, uint32_t total)>& progress = {});
 

@@ -1,0 +1,51 @@
+// The full model under a robust ray tracer.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace veduta {
+
+/// What a ray meets first.
+struct Hit {
+  static constexpr uint32_t none = ~uint32_t{0};
+  uint32_t triangle = none;  ///< number in Scene::triangles
+  float distance_m = 0;
+};
+
+/// All triangles of a scene in a bounding-volume hierarchy (Embree, robust mode, both sides of every triangle
+/// are solid). Every member may be called from several threads at once. The scene must outlive it.
+class RayScene {
+ public:
+  /// \throw Error(bad_input) when the scene has no triangle or 2^32 of them; Error(defect) when Embree fails.
+  explicit RayScene(const Scene& scene);
+  ~RayScene();
+  RayScene(const RayScene&) = delete;
+  RayScene& operator=(const RayScene&) = delete;
+
+  /// First hits of rays from one eye; `directions` of unit length, `hits` as many. In float arithmetic: a hit
+  /// next to an edge may be of the neighbour, and of coincident triangles any may be named. Fastest when
+  /// consecutive directions lie close together.
+  void first_hits(const glm::vec3& eye, std::span<const glm::vec3> directions, std::span<Hit> hits) const;
+
+  /// Does a triangle meet the segment? Its far end is stretched by 0.1 %, so a point on a surface counts as
+  /// behind it.
+  bool blocked(const glm::vec3& from, const glm::vec3& to) const;
+
+  /// Every triangle that the ray may meet up to a distance, and more (those whose bounds it meets),
+  /// ascending. Nothing that it meets is left out: what exact arithmetic has to look at. Direction of unit
+  /// length.
+  std::vector<uint32_t> triangles_near(const glm::vec3& eye, const glm::vec3& direction,
+                                       float distance_m) const;
+
+ private:
+  struct Tracer;
+  std::unique_ptr<Tracer> tracer_;
+};
+
+}  // namespace veduta

@@ -1,0 +1,115 @@
+// Cells are checked in parallel, each with random numbers of its own, and added up in their order: the report
+// does not depend on the number of threads.
+#include "verify/verify.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <glm/geometric.hpp>
+#include <mutex>
+#include <numeric>
+
+#include "verify/cell_check.h"
+#include "verify/random.h"
+
+namespace veduta {
+namespace {
+
+constexpr size_t example_limit = 16;
+
+// `count` distinct cells, ascending: the first steps of a Fisher-Yates shuffle.
+std::vector<uint32_t> sample_cells(size_t cells, size_t count, uint64_t seed) {
+  std::vector<uint32_t> numbers(cells);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  count = std::min(count, cells);
+  Random random(seed);
+  for (size_t i = 0; i < count; ++i) std::swap(numbers[i], numbers[i + random.below(cells - i)]);
+  numbers.resize(count);
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
+}
+
+double ratio(double over, double under) {
+  return under > 0 ? over / under : 0;
+}
+
+void keep_nearest(std::vector<FalseInvisible>& examples) {
+  std::stable_sort(examples.begin(), examples.end(), [](const FalseInvisible& a, const FalseInvisible& b) {
+    return glm::distance(a.eye, a.hit) < glm::distance(b.eye, b.hit);
+  });
+  if (examples.size() > example_limit) examples.resize(example_limit);
+}
+
+VerifyReport add_up(const std::vector<CellCheck>& checks) {
+  VerifyReport report;
+  CellCheck sum;
+  std::vector<double> overestimates;
+  for (const CellCheck& check : checks) {
+    ++report.cells_checked;
+    if (!check.has_eye) {
+      ++report.cells_without_eye;
+      continue;
+    }
+    report.rays += check.rays, report.hits += check.hits, report.grazing_settled += check.cleared;
+    report.false_invisible_objects += check.false_objects,
+        report.false_invisible_triangles += check.false_triangles;
+    sum.false_share += check.false_share;
+    report.false_invisible_solid_angle_worst =
+        std::max(report.false_invisible_solid_angle_worst, check.worst_false_share);
+    report.examples.insert(report.examples.end(), check.examples.begin(), check.examples.end());
+    sum.pvs_objects += check.pvs_objects, sum.seen_objects += check.seen_objects;
+    sum.pvs_buildings += check.pvs_buildings, sum.seen_buildings += check.seen_buildings;
+    sum.pvs_triangles += check.pvs_triangles, sum.seen_triangles += check.seen_triangles;
+    sum.whole_triangles += check.whole_triangles;
+    if (check.seen_objects > 0)
+      overestimates.push_back(
+          ratio(static_cast<double>(check.pvs_objects), static_cast<double>(check.seen_objects)));
+  }
+  const double looked = report.cells_checked - report.cells_without_eye;
+  const double pvs_objects = static_cast<double>(sum.pvs_objects),
+               seen_objects = static_cast<double>(sum.seen_objects);
+  const double pvs_triangles = static_cast<double>(sum.pvs_triangles),
+               seen_triangles = static_cast<double>(sum.seen_triangles);
+  report.false_invisible_solid_angle_mean = ratio(sum.false_share, looked);
+  report.overestimate_objects = ratio(pvs_objects, seen_objects);
+  report.overestimate_buildings =
+      ratio(static_cast<double>(sum.pvs_buildings), static_cast<double>(sum.seen_buildings));
+  report.overestimate_triangles = ratio(pvs_triangles, seen_triangles);
+  report.mean_pvs_objects = ratio(pvs_objects, looked),
+  report.mean_seen_objects = ratio(seen_objects, looked);
+  report.mean_pvs_triangles = ratio(pvs_triangles, looked),
+  report.mean_seen_triangles = ratio(seen_triangles, looked);
+  report.drawn_of_whole_objects = ratio(pvs_triangles, static_cast<double>(sum.whole_triangles));
+  if (!overestimates.empty()) {
+    std::sort(overestimates.begin(), overestimates.end());
+    report.overestimate_objects_median = overestimates[overestimates.size() / 2];
+    report.overestimate_objects_worst = overestimates.back();
+  }
+  keep_nearest(report.examples);
+  return report;
+}
+
+}  // namespace
+
+VerifyReport verify(const PvsFile& file, const VerifyOptions& options,
+                    const std::function<void(uint32_t done, uint32_t total)>& progress) {
+  const auto begin = std::chrono::steady_clock::now();
+  const RayScene rays(file.city.scene);
+  const std::vector<uint32_t> cells = sample_cells(file.city.cells.size(), options.cells, options.seed);
+  std::vector<CellCheck> checks(cells.size());
+  std::mutex mutex;
+  uint32_t done = 0;
+  tbb::parallel_for(size_t{0}, cells.size(), [&](size_t i) {
+    checks[i] = check_cell(file, cells[i], options, rays);
+    const std::lock_guard lock(mutex);
+    ++done;
+    if (progress) progress(done, static_cast<uint32_t>(cells.size()));
+  });
+  VerifyReport report = add_up(checks);
+  report.elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  report.rays_per_second = ratio(static_cast<double>(report.rays), report.elapsed_s);
+  return report;
+}
+
+}  // namespace veduta
