@@ -6,23 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "pvs/run_paths.h"
 #include "pvs/visibility.h"
 
 namespace veduta {
-
-/// Where a run directory keeps things (DESIGN §8).
-struct RunPaths {
-  std::filesystem::path directory;
-  std::filesystem::path settings() const { return directory / "run.toml"; }
-  std::filesystem::path fingerprint() const { return directory / "fingerprint"; }
-  std::filesystem::path lock() const { return directory / "lock"; }
-  std::filesystem::path log() const { return directory / "log.jsonl"; }
-  std::filesystem::path prepared() const { return directory / "prepared"; }
-  std::filesystem::path city() const { return directory / "prepared" / "city.h5"; }
-  std::filesystem::path shards() const { return directory / "shards"; }
-  std::filesystem::path report() const { return directory / "report.json"; }
-  std::filesystem::path result() const { return directory / "city.pvs.h5"; }
-};
 
 /// What is known of each cell from the journal: where its record lies.
 struct JournalEntry {
