@@ -8,7 +8,8 @@ namespace veduta {
 
 bool FreeOctree::contains(const glm::vec3& point) const {
   if (states.empty()) return false;
-  // In double, relative to the corner: halving the edge is then exact, so neighbouring leaves leave no gap between them.
+  // In double, relative to the corner: halving the edge is then exact, so neighbouring leaves leave no gap
+  // between them.
   double edge = std::ldexp(static_cast<double>(leaf_size_m), static_cast<int>(depth));
   double x = static_cast<double>(point.x) - static_cast<double>(lower.x);
   double y = static_cast<double>(point.y) - static_cast<double>(lower.y);
@@ -31,8 +32,10 @@ bool FreeOctree::contains(const glm::vec3& point) const {
 }
 
 float HeightField::at(float x, float y) const {
-  const double i = std::floor((static_cast<double>(x) - static_cast<double>(lower_x)) / static_cast<double>(step_m));
-  const double j = std::floor((static_cast<double>(y) - static_cast<double>(lower_y)) / static_cast<double>(step_m));
+  const double i =
+      std::floor((static_cast<double>(x) - static_cast<double>(lower_x)) / static_cast<double>(step_m));
+  const double j =
+      std::floor((static_cast<double>(y) - static_cast<double>(lower_y)) / static_cast<double>(step_m));
   if (!(i >= 0 && j >= 0 && i < nx && j < ny)) return std::numeric_limits<float>::quiet_NaN();
   return height[static_cast<size_t>(j) * nx + static_cast<size_t>(i)];
 }

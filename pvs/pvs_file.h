@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "pvs/cell_grid.h"
 #include "pvs/city.h"
 #include "pvs/visibility.h"
 
@@ -47,12 +48,20 @@ struct PvsFile {
 
   /// The cell that holds the point, or -1. A point on a shared face belongs to the cell with the lowest number.
   int64_t find_cell(const glm::vec3& point) const;
+
+  /// What find_cell looks in. read_pvs has made it; who changes city.cells makes it again. Made of another
+  /// number of cells, it is not used and find_cell looks at every cell.
+  CellGrid grid;
+  void index_cells() { grid = CellGrid(city.cells); }
 };
 
 /// Reads and checks a whole file.
 /// \throw Error(bad_input) when it is missing, not ours, of another version or damaged (naming the dataset);
 ///   Error(input_output) when it cannot be read.
 PvsFile read_pvs(const std::filesystem::path& file);
+
+/// The temporary name that a process with this id writes to, beside `file`: to be removed when that process died.
+std::filesystem::path temporary_name(const std::filesystem::path& file, long pid);
 
 /// Where the writer asks for the row of cell c, c ascending; called once per cell. Memory does not grow with cells.
 struct BakedCell {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -64,7 +65,24 @@ struct ShardScan {
 ShardScan scan_shard(const std::filesystem::path& file, const std::string& fingerprint,
                      const std::function<void(CellRecord&&, uint64_t offset)>& visit);
 
-/// Reads one record whose offset `scan_shard` gave. \throw Error(bad_input) when it is not there any more.
+/// Reads records whose offsets `scan_shard` gave, keeping the file open.
+class ShardReader {
+ public:
+  /// \throw Error(input_output) when the file cannot be opened.
+  explicit ShardReader(const std::filesystem::path& file);
+  ~ShardReader();
+  ShardReader(ShardReader&&) noexcept;
+  ShardReader& operator=(ShardReader&&) noexcept;
+
+  /// \throw Error(bad_input) when the record is not there any more.
+  CellRecord read(uint64_t offset);
+
+ private:
+  struct File;
+  std::unique_ptr<File> file_;
+};
+
+/// The same for a single record. \throw Error(bad_input) when it is not there any more.
 CellRecord read_record(const std::filesystem::path& file, uint64_t offset);
 
 }  // namespace veduta

@@ -1,0 +1,77 @@
+#include "pvs/cell_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace veduta {
+
+namespace {
+
+constexpr int bits_per_axis = 20;
+constexpr double bins_limit = 1 << bits_per_axis;
+
+uint64_t key(int64_t x, int64_t y, int64_t z) {
+  return (static_cast<uint64_t>(z) << (2 * bits_per_axis)) | (static_cast<uint64_t>(y) << bits_per_axis) |
+         static_cast<uint64_t>(x);
+}
+
+double median_edge(const std::vector<Box>& cells, int axis) {
+  std::vector<float> edges;
+  edges.reserve(cells.size());
+  for (const Box& cell : cells) edges.push_back(cell.upper[axis] - cell.lower[axis]);
+  const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
+  std::nth_element(edges.begin(), middle, edges.end());
+  return static_cast<double>(*middle);
+}
+
+}  // namespace
+
+int64_t CellGrid::bin_along(int axis, float x) const {
+  // Never falls as x grows, so a point's bin is among those between the bins of its cell's corners.
+  return static_cast<int64_t>((static_cast<double>(x) - static_cast<double>(bounds_.lower[axis])) /
+                              edge_m_[static_cast<size_t>(axis)]);
+}
+
+CellGrid::CellGrid(const std::vector<Box>& cells) : cell_count_(cells.size()) {
+  if (cells.empty()) return;
+  for (const Box& cell : cells) bounds_.extend(cell);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double extent = static_cast<double>(bounds_.upper[axis]) - static_cast<double>(bounds_.lower[axis]);
+    edge_m_[static_cast<size_t>(axis)] =
+        std::max({median_edge(cells, axis), extent / (bins_limit - 2), 1e-6});
+  }
+  const auto bins_of = [&](const Box& cell) {
+    double bins = 1;
+    for (int axis = 0; axis < 3; ++axis)
+      bins *= static_cast<double>(bin_along(axis, cell.upper[axis]) - bin_along(axis, cell.lower[axis]) + 1);
+    return bins;
+  };
+  // A few cells that are much larger than the rest would take most of the bins: coarsen until they do not.
+  const double budget = 32.0 * static_cast<double>(cells.size()) + 1024;
+  for (;;) {
+    double bins = 0;
+    for (const Box& cell : cells) bins += bins_of(cell);
+    if (bins <= budget) break;
+    for (double& edge : edge_m_) edge *= 2;
+  }
+  for (uint32_t c = 0; c < cells.size(); ++c)
+    for (int64_t z = bin_along(2, cells[c].lower.z); z <= bin_along(2, cells[c].upper.z); ++z)
+      for (int64_t y = bin_along(1, cells[c].lower.y); y <= bin_along(1, cells[c].upper.y); ++y)
+        for (int64_t x = bin_along(0, cells[c].lower.x); x <= bin_along(0, cells[c].upper.x); ++x)
+          entries_.push_back({key(x, y, z), c});
+  std::sort(entries_.begin(), entries_.end(),
+            [](const Entry& a, const Entry& b) { return std::tie(a.bin, a.cell) < std::tie(b.bin, b.cell); });
+}
+
+int64_t CellGrid::find(const std::vector<Box>& cells, const glm::vec3& point) const {
+  if (cells.empty() || !bounds_.contains(point)) return -1;
+  const uint64_t bin = key(bin_along(0, point.x), bin_along(1, point.y), bin_along(2, point.z));
+  auto entry = std::lower_bound(entries_.begin(), entries_.end(), bin,
+                                [](const Entry& e, uint64_t wanted) { return e.bin < wanted; });
+  for (; entry != entries_.end() && entry->bin == bin; ++entry)
+    if (cells[entry->cell].contains(point)) return entry->cell;
+  return -1;
+}
+
+}  // namespace veduta

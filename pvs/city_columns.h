@@ -1,0 +1,29 @@
+// The parts of a file that a prepared city and a result have in common.
+#pragma once
+
+#include "pvs/hdf5_input.h"
+#include "pvs/hdf5_output.h"
+
+namespace veduta {
+
+/// Writes /scene, /navigation and /cells/bounds. Adds the digests of what it wrote.
+void write_city_columns(hdf5::Output& output, const City& city, ColumnDigests& digests);
+/// Reads what write_city_columns wrote. Digests are compared, relations not yet.
+City read_city_columns(const hdf5::Input& input, ColumnDigests& digests);
+
+/// Writes and reads the root's attributes. Reading compares the format, the version and the digest over them.
+void write_root(hdf5::Output& output, const RootAttributes& root);
+RootAttributes read_root(const hdf5::Input& input, const std::string& format);
+
+/// Runs `write` on a temporary name beside `file`, runs `check` on the closed result, syncs and renames.
+/// Nothing is left behind by a failure.
+void write_atomically(const std::filesystem::path& file,
+                      const std::function<void(const std::filesystem::path&)>& write,
+                      const std::function<void(const std::filesystem::path&)>& check);
+
+/// Reads every dataset again and compares with what was meant to be written: HDF5 1.10 has closed a file on a
+/// full disk successfully, with other values in it. \throw Error(input_output).
+void check_written(const std::filesystem::path& temporary, const ColumnDigests& digests,
+                   const RootAttributes& root);
+
+}  // namespace veduta

@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "pvs/city_columns.h"
+#include "pvs/pvs_check.h"
+#include "scene/error.h"
+
+namespace veduta {
+
+namespace {
+
+using hdf5::ColumnReader;
+using hdf5::Input;
+
+template <typename T>
+std::vector<T> read_rows(const Input& input, const Column& column, ColumnDigests& digests) {
+  std::vector<T> rows;
+  digests[column.path] = ColumnReader(input, column).read_into(rows);
+  return rows;
+}
+
+/// Reads a dataset into one member of each item of a list that has its size already.
+template <typename T, typename Items, typename Set>
+void read_members(const Input& input, const Column& column, Items& items, Set set, ColumnDigests& digests) {
+  const std::vector<T> values = read_rows<T>(input, column, digests);
+  if (values.size() != items.size())
+    input.fail(column.path, fmt::format("{} values for {}", values.size(), items.size()));
+  for (size_t i = 0; i < values.size(); ++i) set(items[i], values[i]);
+}
+
+template <typename Items>
+void read_names(const Input& input, const Column& column, Items& items, ColumnDigests& digests) {
+  const ColumnReader reader(input, column);
+  items.resize(reader.rows());
+  digests[column.path] = reader.read([&](const std::byte* rows, uint64_t first, size_t count) {
+    for (size_t i = 0; i < count; ++i) {
+      const char* text = reinterpret_cast<const char*>(rows + i * reader.row_bytes());
+      items[first + i].name.assign(text, ::strnlen(text, reader.row_bytes()));
+    }
+  });
+}
+
+void read_scene(const Input& input, City& city, ColumnDigests& digests) {
+  Scene& scene = city.scene;
+  scene.vertices = read_rows<glm::vec3>(input, column::vertices, digests);
+  scene.triangles = read_rows<glm::uvec3>(input, column::triangles, digests);
+  scene.material = read_rows<Material>(input, column::material, digests);
+  city.triangle_slices = read_rows<TriangleSlices>(input, column::triangle_slice, digests);
+  read_names(input, column::object_name, scene.objects, digests);
+  read_members<Kind>(
+      input, column::object_kind, scene.objects, [](Object& o, Kind kind) { o.kind = kind; }, digests);
+  const auto begin = read_rows<uint64_t>(input, column::object_begin, digests);
+  if (begin.size() != scene.objects.size() + 1 || begin.front() != 0)
+    input.fail(column::object_begin.path, "not one more than there are objects, from 0 on");
+  for (size_t i = 0; i < scene.objects.size(); ++i) {
+    scene.objects[i].triangle_begin = begin[i];
+    scene.objects[i].triangle_end = begin[i + 1];
+  }
+  city.slices = read_rows<SliceCounts>(input, column::object_slices, digests);
+  read_names(input, column::part_name, scene.parts, digests);
+  read_members<uint32_t>(
+      input, column::part_object, scene.parts, [](Part& p, uint32_t object) { p.object = object; }, digests);
+  read_members<uint64_t>(
+      input, column::part_begin, scene.parts, [](Part& p, uint64_t t) { p.triangle_begin = t; }, digests);
+  read_members<uint64_t>(
+      input, column::part_end, scene.parts, [](Part& p, uint64_t t) { p.triangle_end = t; }, digests);
+}
+
+void read_navigation(const Input& input, Navigation& navigation, ColumnDigests& digests) {
+  FreeOctree& octree = navigation.free;
+  const auto lower = input.floats("/navigation/octree", "lower", 3);
+  octree.lower = {lower[0], lower[1], lower[2]};
+  octree.leaf_size_m = input.floats("/navigation/octree", "leaf_size_m", 1)[0];
+  octree.depth = input.number("/navigation/octree", "depth");
+  octree.states = read_rows<uint16_t>(input, column::octree_states, digests);
+  octree.first_child = read_rows<uint32_t>(input, column::octree_first_child, digests);
+  HeightField& ground = navigation.ground;
+  const auto corner = input.floats("/navigation/ground", "lower", 2);
+  ground.lower_x = corner[0];
+  ground.lower_y = corner[1];
+  ground.step_m = input.floats("/navigation/ground", "step_m", 1)[0];
+  const ColumnReader height(input, column::ground_height);
+  if (height.rows() > UINT32_MAX || height.columns() > UINT32_MAX)
+    input.fail(column::ground_height.path, "more than 2^32 - 1 samples along an axis");
+  ground.nx = static_cast<uint32_t>(height.columns());
+  ground.ny = static_cast<uint32_t>(height.rows());
+  ground.height.resize(height.rows() * height.columns());
+  digests[column::ground_height.path] = height.read([&](const std::byte* rows, uint64_t first, size_t count) {
+    std::memcpy(ground.height.data() + first * height.columns(), rows, count * height.row_bytes());
+  });
+}
+
+}  // namespace
+
+City read_city_columns(const Input& input, ColumnDigests& digests) {
+  City city;
+  read_scene(input, city, digests);
+  read_navigation(input, city.navigation, digests);
+  city.cells = read_rows<Box>(input, column::cell_bounds, digests);
+  const auto bounds = read_rows<Box>(input, column::object_bounds, digests);
+  if (bounds.size() != city.scene.objects.size())
+    input.fail(column::object_bounds.path, "not one for each object");
+  return city;
+}
+
+RootAttributes read_root(const Input& input, const std::string& format) {
+  RootAttributes root;
+  root.format = input.text("/", "format");
+  if (root.format != format)
+    input.fail("/@format", fmt::format("\"{}\", this program reads \"{}\" here; was the right file given?",
+                                       root.format, format));
+  root.version = input.number("/", "version");
+  if (root.version != pvs_version)
+    input.fail("/@version",
+               fmt::format("version {}, this program reads {}; use the version that wrote it, or bake again",
+                           root.version, pvs_version));
+  root.unit = input.text("/", "unit");
+  root.up = input.text("/", "up");
+  if (root.unit != "m" || root.up != "z") input.fail("/@unit", "not in metres with z up");
+  root.crs = input.text("/", "crs");
+  root.origin = input.doubles("/", "origin");
+  root.header.fingerprint = input.text("/", "fingerprint");
+  root.header.config = input.text("/", "config");
+  root.header.renderer = input.text("/", "renderer");
+  root.header.complete = input.flag("/", "complete") != 0;
+  root.header.conservative = input.flag("/", "conservative") != 0;
+  root.content_digest = input.text("/", "content_digest");
+  if (input.text("/", "header_digest") != header_digest(root))
+    input.fail("/@header_digest", "an attribute of the root is damaged; get the file again, or bake again");
+  return root;
+}
+
+}  // namespace veduta

@@ -1,0 +1,119 @@
+#include "pvs/city_columns.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace veduta {
+
+namespace {
+
+using hdf5::ColumnWriter;
+using hdf5::Output;
+
+/// Writes a dataset whose rows lie in memory as they do in the file.
+template <typename T>
+void write_rows(Output& output, const Column& column, const std::vector<T>& rows, ColumnDigests& digests) {
+  ColumnWriter writer(output, column, rows.size());
+  writer.append(rows.data(), rows.size());
+  digests[column.path] = writer.finish();
+}
+
+/// Writes member values of the items of a list as a dataset.
+template <typename T, typename Items, typename Member>
+void write_members(Output& output, const Column& column, const Items& items, Member member,
+                   ColumnDigests& digests) {
+  ColumnWriter writer(output, column, items.size());
+  for (const auto& item : items) {
+    const T value = member(item);
+    writer.append(&value, 1);
+  }
+  digests[column.path] = writer.finish();
+}
+
+/// Texts of fixed length, padded with NUL: no variable-length types, which have hurt many readers.
+template <typename Items>
+void write_names(Output& output, const Column& column, const Items& items, ColumnDigests& digests) {
+  size_t longest = 1;
+  for (const auto& item : items) longest = std::max(longest, item.name.size());
+  ColumnWriter writer(output, column, items.size(), longest);
+  std::string padded;
+  for (const auto& item : items) {
+    padded = item.name;
+    padded.resize(longest, '\0');
+    writer.append(padded.data(), 1);
+  }
+  digests[column.path] = writer.finish();
+}
+
+void write_scene(Output& output, const City& city, ColumnDigests& digests) {
+  const Scene& scene = city.scene;
+  for (const char* group : {"/scene", "/scene/objects", "/scene/parts"}) output.group(group);
+  static_assert(sizeof(glm::vec3) == 12 && sizeof(glm::uvec3) == 12 && sizeof(Box) == 24 &&
+                sizeof(SliceCounts) == 3);
+  write_rows(output, column::vertices, scene.vertices, digests);
+  write_rows(output, column::triangles, scene.triangles, digests);
+  write_rows(output, column::material, scene.material, digests);
+  write_rows(output, column::triangle_slice, city.triangle_slices, digests);
+  write_names(output, column::object_name, scene.objects, digests);
+  write_members<Kind>(
+      output, column::object_kind, scene.objects, [](const Object& o) { return o.kind; }, digests);
+  write_members<Box>(
+      output, column::object_bounds, scene.objects,
+      [&](const Object& o) { return triangle_bounds(scene, o); }, digests);
+  std::vector<uint64_t> begin{0};
+  for (const Object& object : scene.objects) begin.push_back(object.triangle_end);
+  write_rows(output, column::object_begin, begin, digests);
+  write_rows(output, column::object_slices, city.slices, digests);
+  write_names(output, column::part_name, scene.parts, digests);
+  write_members<uint32_t>(
+      output, column::part_object, scene.parts, [](const Part& p) { return p.object; }, digests);
+  write_members<uint64_t>(
+      output, column::part_begin, scene.parts, [](const Part& p) { return p.triangle_begin; }, digests);
+  write_members<uint64_t>(
+      output, column::part_end, scene.parts, [](const Part& p) { return p.triangle_end; }, digests);
+}
+
+void write_navigation(Output& output, const Navigation& navigation, ColumnDigests& digests) {
+  for (const char* group : {"/navigation", "/navigation/octree", "/navigation/ground"}) output.group(group);
+  const FreeOctree& octree = navigation.free;
+  output.attribute("/navigation/octree", "lower",
+                   std::vector<float>{octree.lower.x, octree.lower.y, octree.lower.z});
+  output.attribute("/navigation/octree", "leaf_size_m", std::vector<float>{octree.leaf_size_m});
+  output.attribute("/navigation/octree", "depth", octree.depth);
+  write_rows(output, column::octree_states, octree.states, digests);
+  write_rows(output, column::octree_first_child, octree.first_child, digests);
+  const HeightField& ground = navigation.ground;
+  output.attribute("/navigation/ground", "lower", std::vector<float>{ground.lower_x, ground.lower_y});
+  output.attribute("/navigation/ground", "step_m", std::vector<float>{ground.step_m});
+  const uint32_t nx = ground.height.empty() ? 0 : ground.nx, ny = ground.height.empty() ? 0 : ground.ny;
+  ColumnWriter writer(output, column::ground_height, ny, 0, nx);
+  writer.append(ground.height.data(), ny);
+  digests[column::ground_height.path] = writer.finish();
+}
+
+}  // namespace
+
+void write_city_columns(Output& output, const City& city, ColumnDigests& digests) {
+  write_scene(output, city, digests);
+  write_navigation(output, city.navigation, digests);
+  output.group("/cells");
+  write_rows(output, column::cell_bounds, city.cells, digests);
+}
+
+void write_root(Output& output, const RootAttributes& root) {
+  output.attribute("/", "format", root.format);
+  output.attribute("/", "version", root.version);
+  output.attribute("/", "unit", root.unit);
+  output.attribute("/", "up", root.up);
+  output.attribute("/", "crs", root.crs);
+  output.attribute("/", "origin", root.origin);
+  output.attribute("/", "fingerprint", root.header.fingerprint);
+  output.attribute("/", "config", root.header.config);
+  output.attribute("/", "renderer", root.header.renderer);
+  output.attribute("/", "complete", static_cast<uint8_t>(root.header.complete));
+  output.attribute("/", "conservative", static_cast<uint8_t>(root.header.conservative));
+  output.attribute("/", "content_digest", root.content_digest);
+  output.attribute("/", "header_digest", header_digest(root));
+}
+
+}  // namespace veduta

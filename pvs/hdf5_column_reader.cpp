@@ -1,0 +1,110 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "pvs/digest.h"
+#include "pvs/hdf5_input.h"
+
+namespace veduta::hdf5 {
+
+namespace {
+
+// Deflate packs at most 1,032 bytes into one; a chunk that was never written takes none. What claims to hold
+// more than the file could is refused before anything is allocated.
+constexpr uint64_t deflate_ratio_limit = 1100;
+constexpr uint64_t text_bytes_limit = 1u << 20;
+constexpr uint64_t chunk_bytes_limit = 256u << 20;
+
+}  // namespace
+
+ColumnReader::ColumnReader(const Input& input, const Column& column) : input_(input), column_(column) {
+  const Handle object = input.open(column.path);
+  if (H5Iget_type(object.get()) != H5I_DATASET) input.fail(column.path, "not a dataset");
+  Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  H5Pset_chunk_cache(access.get(), 0, 0, 1.0);  // every chunk is read once
+  dataset_ = {H5Dopen2(input.file_.get(), column.path, access.get()), H5Dclose};
+  const Handle stored(H5Dget_type(dataset_.get()), H5Tclose);
+  const Handle space(H5Dget_space(dataset_.get()), H5Sclose);
+  if (!stored.valid() || !space.valid()) input.fail(column.path, "damaged");
+  size_t text_bytes = 0;
+  if (column.element == Element::text) {
+    if (H5Tget_class(stored.get()) != H5T_STRING || H5Tis_variable_str(stored.get()) != 0)
+      input.fail(column.path, "not texts of fixed length");
+    text_bytes = H5Tget_size(stored.get());
+    if (text_bytes == 0 || text_bytes > text_bytes_limit)
+      input.fail(column.path, "damaged: absurd length of text");
+  }
+  type_ = element_type(column.element, text_bytes);
+  if (H5Tequal(stored.get(), type_.get()) <= 0)
+    input.fail(column.path, "of another type than this program writes");
+
+  const int rank = column.columns == 1 ? 1 : 2;
+  hsize_t extent[2] = {0, 1};
+  if (H5Sget_simple_extent_ndims(space.get()) != rank ||
+      H5Sget_simple_extent_dims(space.get(), extent, nullptr) != rank)
+    input.fail(column.path, fmt::format("not of rank {}", rank));
+  rows_ = extent[0];
+  columns_ = extent[1];
+  if (column.columns > 0 && columns_ != column.columns)
+    input.fail(column.path, fmt::format("{} columns where {} belong", columns_, column.columns));
+  stored_bytes_ = H5Dget_storage_size(dataset_.get());
+  const uint64_t element = element_bytes(column.element, text_bytes);
+  const uint64_t most = std::min(stored_bytes_, input.file_bytes()) * deflate_ratio_limit;
+  if (columns_ > most / element + 6 || (rows_ > 0 && columns_ > 0 && rows_ > most / (element * columns_)))
+    input.fail(column.path,
+               fmt::format("damaged: claims {} x {} values, more than the file can hold", rows_, columns_));
+  row_bytes_ = element * columns_;
+  check_storage();
+}
+
+void ColumnReader::check_storage() const {
+  const Handle create(H5Dget_create_plist(dataset_.get()), H5Pclose);
+  if (!create.valid() || H5Pget_layout(create.get()) != H5D_CHUNKED)
+    input_.fail(column_.path, "not chunked: nothing protects it, such files are not read");
+  hsize_t chunk[2] = {1, 1};
+  const int rank = column_.columns == 1 ? 1 : 2;
+  if (H5Pget_chunk(create.get(), rank, chunk) != rank) input_.fail(column_.path, "damaged");
+  // Each factor is below 2^32 by the format, so only the last product could overflow.
+  if (chunk[0] > chunk_bytes_limit || chunk[1] > chunk_bytes_limit || chunk[0] * chunk[1] > chunk_bytes_limit)
+    input_.fail(column_.path, "damaged: absurd chunks");
+  for (int i = 0; i < H5Pget_nfilters(create.get()); ++i) {
+    unsigned flags = 0;
+    size_t values = 0;
+    const H5Z_filter_t filter =
+        H5Pget_filter2(create.get(), static_cast<unsigned>(i), &flags, &values, nullptr, 0, nullptr, nullptr);
+    if (filter != H5Z_FILTER_SHUFFLE && filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_FLETCHER32)
+      input_.fail(column_.path, "packed by a filter that this program does not write");
+  }
+}
+
+std::string ColumnReader::read(
+    const std::function<void(const std::byte* rows, uint64_t first, size_t count)>& visit) const {
+  const int rank = column_.columns == 1 ? 1 : 2;
+  const Handle create(H5Dget_create_plist(dataset_.get()), H5Pclose);
+  hsize_t chunk[2] = {1, 1};
+  H5Pget_chunk(create.get(), rank, chunk);
+  // Whole chunks at a time, some 256 KiB or one chunk's height: no chunk is unpacked twice.
+  const uint64_t fit = std::max<uint64_t>(1, chunk_bytes / std::max<size_t>(1, row_bytes_));
+  const uint64_t block = std::max<uint64_t>(chunk[0], fit / chunk[0] * chunk[0]);
+  Digest digest;
+  std::vector<std::byte> bytes(std::min(block, rows_) * row_bytes_);
+  const Handle space(H5Dget_space(dataset_.get()), H5Sclose);
+  for (uint64_t first = 0; row_bytes_ > 0 && first < rows_; first += block) {
+    const hsize_t start[2] = {first, 0};
+    const hsize_t count[2] = {std::min(block, rows_ - first), columns_};
+    const Handle memory(H5Screate_simple(rank, count, nullptr), H5Sclose);
+    if (H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start, nullptr, count, nullptr) < 0 ||
+        H5Dread(dataset_.get(), type_.get(), memory.get(), space.get(), H5P_DEFAULT, bytes.data()) < 0)
+      input_.fail(column_.path, "damaged: a checksum does not hold; get the file again, or bake again");
+    digest.update(bytes.data(), count[0] * row_bytes_);
+    visit(bytes.data(), first, count[0]);
+  }
+  const uint64_t extent[2] = {rows_, columns_};
+  digest.update(extent, rank == 1 ? 8 : 16);
+  const std::string hex = digest.hex();
+  if (input_.text_of(dataset_.get(), column_.path, "digest") != hex)
+    input_.fail(column_.path, "damaged: its digest does not hold; get the file again, or bake again");
+  return hex;
+}
+
+}  // namespace veduta::hdf5

@@ -1,0 +1,182 @@
+#include "pvs/hdf5_output.h"
+
+#include <fmt/format.h>
+#include <sys/statvfs.h>
+
+#include <algorithm>
+
+#include "scene/error.h"
+
+namespace veduta::hdf5 {
+
+namespace {
+
+// What HDF5 itself may still have to write at any time: superblock, headers, chunk indices, one chunk.
+constexpr uint64_t metadata_reserve_bytes = 4u << 20;
+constexpr unsigned deflate_level = 4;
+
+uint64_t free_bytes(const std::filesystem::path& file) {
+  const auto parent = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+  struct statvfs status {};
+  if (::statvfs(parent.c_str(), &status) != 0) return UINT64_MAX;  // not known: writing will tell
+  return uint64_t{status.f_bavail} * status.f_frsize;
+}
+
+}  // namespace
+
+Output::Output(const std::filesystem::path& file) : path_(file) {
+  prepare_library();
+  require_space(0);
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  Handle create(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  // Version 1.8 (2008) brought checksums of metadata. No lock: the name is ours alone, and locks fail on some
+  // shared file systems. The root's attributes stay in its header, where the simplest readers find them.
+  if (H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V18) < 0 ||
+      H5Pset_file_locking(access.get(), false, true) < 0 || H5Pset_obj_track_times(create.get(), false) < 0 ||
+      H5Pset_attr_phase_change(create.get(), 64, 32) < 0)
+    fail("/", "HDF5 refuses its settings");
+  file_ = {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, create.get(), access.get()), H5Fclose};
+  if (!file_.valid()) fail("/", "cannot create the file; is the directory there and writable?");
+}
+
+void Output::fail(const char* place, const char* what) const {
+  const uint64_t left = free_bytes(path_);
+  throw Error(ExitStatus::input_output,
+              fmt::format("{}: {}: {}{}", path_.string(), place, what,
+                          left < 2 * metadata_reserve_bytes
+                              ? fmt::format("; the disk is full ({} KiB free): free some space and run again",
+                                            left / 1024)
+                              : ""));
+}
+
+void Output::require_space(uint64_t bytes) const {
+  const uint64_t left = free_bytes(path_);
+  if (left >= bytes + metadata_reserve_bytes) return;
+  throw Error(ExitStatus::input_output,
+              fmt::format("{}: the disk is full: {} KiB free, {} KiB needed; free some space and run again",
+                          path_.string(), left / 1024, (bytes + metadata_reserve_bytes) / 1024));
+}
+
+void Output::group(const char* path) {
+  Handle create(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  if (H5Pset_obj_track_times(create.get(), false) < 0) fail(path, "HDF5 refuses its settings");
+  Handle made(H5Gcreate2(file_.get(), path, H5P_DEFAULT, create.get(), H5P_DEFAULT), H5Gclose);
+  if (!made.valid() || !made.close()) fail(path, "cannot write the group");
+}
+
+void Output::raw_attribute(hid_t object, const char* place, const char* name, hid_t type, const void* data,
+                           size_t count) {
+  const hsize_t extent = count;
+  Handle space(count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &extent, nullptr), H5Sclose);
+  Handle attribute(H5Acreate2(object, name, type, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  if (!attribute.valid() || H5Awrite(attribute.get(), type, data) < 0 || !attribute.close())
+    fail(place, fmt::format("cannot write the attribute {}", name).c_str());
+}
+
+void Output::text_attribute(hid_t object, const char* place, const char* name, const std::string& text) {
+  std::string padded = text;
+  if (padded.empty()) padded.push_back('\0');  // HDF5 has no text of length 0
+  raw_attribute(object, place, name, element_type(Element::text, padded.size()).get(), padded.data(), 1);
+}
+
+void Output::attribute(const char* object, const char* name, const std::string& text) {
+  Handle opened(H5Oopen(file_.get(), object, H5P_DEFAULT), H5Oclose);
+  text_attribute(opened.get(), object, name, text);
+}
+
+void Output::attribute(const char* object, const char* name, uint32_t value) {
+  Handle opened(H5Oopen(file_.get(), object, H5P_DEFAULT), H5Oclose);
+  raw_attribute(opened.get(), object, name, H5T_STD_U32LE, &value, 1);
+}
+
+void Output::attribute(const char* object, const char* name, uint8_t value) {
+  Handle opened(H5Oopen(file_.get(), object, H5P_DEFAULT), H5Oclose);
+  raw_attribute(opened.get(), object, name, H5T_STD_U8LE, &value, 1);
+}
+
+void Output::attribute(const char* object, const char* name, const std::vector<float>& values) {
+  Handle opened(H5Oopen(file_.get(), object, H5P_DEFAULT), H5Oclose);
+  raw_attribute(opened.get(), object, name, H5T_IEEE_F32LE, values.data(), values.size());
+}
+
+void Output::attribute(const char* object, const char* name, const std::array<double, 3>& values) {
+  Handle opened(H5Oopen(file_.get(), object, H5P_DEFAULT), H5Oclose);
+  raw_attribute(opened.get(), object, name, H5T_IEEE_F64LE, values.data(), values.size());
+}
+
+void Output::close() {
+  if (H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) < 0) fail("/", "cannot write");
+  if (!file_.close()) fail("/", "cannot close the file");
+}
+
+ColumnWriter::ColumnWriter(Output& output, const Column& column, uint64_t expected_rows, size_t text_bytes,
+                           uint64_t columns)
+    : output_(output), column_(column), columns_(column.columns > 0 ? column.columns : columns) {
+  row_bytes_ = element_bytes(column.element, text_bytes) * columns_;
+  chunk_rows_ = std::max<size_t>(1, chunk_bytes / std::max<size_t>(1, row_bytes_));
+  if (expected_rows > 0) chunk_rows_ = std::min<size_t>(chunk_rows_, expected_rows);
+  type_ = element_type(column.element, text_bytes);
+  const int rank = column.columns == 1 ? 1 : 2;
+  const hsize_t extent[2] = {0, columns_};
+  const hsize_t limit[2] = {H5S_UNLIMITED, columns_ > 0 ? columns_ : H5S_UNLIMITED};
+  const hsize_t chunk[2] = {chunk_rows_, std::max<uint64_t>(1, columns_)};
+  Handle space(H5Screate_simple(rank, extent, limit), H5Sclose);
+  Handle create(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  // Only whole chunks are written, each once: a cache would only put writing off to where errors get lost.
+  if (H5Pset_chunk(create.get(), rank, chunk) < 0 || H5Pset_shuffle(create.get()) < 0 ||
+      H5Pset_deflate(create.get(), deflate_level) < 0 || H5Pset_fletcher32(create.get()) < 0 ||
+      H5Pset_obj_track_times(create.get(), false) < 0 || H5Pset_chunk_cache(access.get(), 0, 0, 1.0) < 0)
+    output_.fail(column.path, "HDF5 refuses its settings");
+  dataset_ = {H5Dcreate2(output_.id(), column.path, type_.get(), space.get(), H5P_DEFAULT, create.get(),
+                         access.get()),
+              H5Dclose};
+  if (!dataset_.valid()) output_.fail(column.path, "cannot create the dataset");
+}
+
+void ColumnWriter::append(const void* rows, size_t count) {
+  const auto* data = static_cast<const std::byte*>(rows);
+  const size_t block = chunk_rows_ * row_bytes_;
+  digest_.update(data, count * row_bytes_);
+  rows_ += count;
+  size_t left = count * row_bytes_;
+  while (left > 0) {
+    const size_t take = std::min(left, block - pending_.size());
+    pending_.insert(pending_.end(), data, data + take);
+    data += take;
+    left -= take;
+    if (pending_.size() == block) write_pending();
+  }
+}
+
+void ColumnWriter::write_pending() {
+  const size_t rows = pending_.size() / std::max<size_t>(1, row_bytes_);
+  if (rows == 0) return;
+  output_.require_space(pending_.size());
+  const int rank = column_.columns == 1 ? 1 : 2;
+  const hsize_t extent[2] = {written_ + rows, columns_};
+  const hsize_t start[2] = {written_, 0};
+  const hsize_t count[2] = {rows, columns_};
+  bool good = H5Dset_extent(dataset_.get(), extent) >= 0;
+  Handle file_space(H5Dget_space(dataset_.get()), H5Sclose);
+  Handle memory_space(H5Screate_simple(rank, count, nullptr), H5Sclose);
+  good = good && H5Sselect_hyperslab(file_space.get(), H5S_SELECT_SET, start, nullptr, count, nullptr) >= 0 &&
+         H5Dwrite(dataset_.get(), type_.get(), memory_space.get(), file_space.get(), H5P_DEFAULT,
+                  pending_.data()) >= 0;
+  if (!good) output_.fail(column_.path, "cannot write");
+  written_ += rows;
+  pending_.clear();
+}
+
+std::string ColumnWriter::finish() {
+  write_pending();
+  const uint64_t extent[2] = {rows_, columns_};
+  digest_.update(extent, column_.columns == 1 ? 8 : 16);
+  const std::string hex = digest_.hex();
+  output_.text_attribute(dataset_.get(), column_.path, "description", column_.description);
+  output_.text_attribute(dataset_.get(), column_.path, "digest", hex);
+  if (!dataset_.close()) output_.fail(column_.path, "cannot close the dataset");
+  return hex;
+}
+
+}  // namespace veduta::hdf5

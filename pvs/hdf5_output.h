@@ -1,0 +1,74 @@
+// Writing HDF5 so that every failure is seen: each return code is checked, free space is asked for before
+// each block.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pvs/digest.h"
+#include "pvs/hdf5_handle.h"
+#include "pvs/pvs_layout.h"
+
+namespace veduta::hdf5 {
+
+/// A new file. Readable by every HDF5 from 1.8 on; the bytes depend on the content alone (no time stamps).
+class Output {
+ public:
+  /// \throw Error(input_output) here and below.
+  explicit Output(const std::filesystem::path& file);
+
+  void group(const char* path);
+  void attribute(const char* object, const char* name, const std::string& text);
+  void attribute(const char* object, const char* name, uint32_t value);
+  void attribute(const char* object, const char* name, uint8_t value);
+  void attribute(const char* object, const char* name, const std::vector<float>& values);
+  void attribute(const char* object, const char* name, const std::array<double, 3>& values);
+
+  /// Closes the file. Without it, the destructor closes and nobody learns whether that worked.
+  void close();
+
+  [[noreturn]] void fail(const char* place, const char* what) const;
+  /// \throw Error(input_output) unless the disk has room for so many bytes more and HDF5's own.
+  void require_space(uint64_t bytes) const;
+  hid_t id() const { return file_.get(); }
+
+ private:
+  void raw_attribute(hid_t object, const char* place, const char* name, hid_t type, const void* data,
+                     size_t count);
+  void text_attribute(hid_t object, const char* place, const char* name, const std::string& text);
+  friend class ColumnWriter;
+
+  std::filesystem::path path_;
+  Handle file_;
+};
+
+/// One dataset, written in whole chunks as rows come: chunked, shuffle, deflate, fletcher32, with attributes
+/// `description` and `digest` (XXH3-128 over the values in order, then the extents as u64).
+class ColumnWriter {
+ public:
+  /// \param expected_rows so that the chunk of a small dataset is small; 0: not known.
+  /// \param columns the extent after the first, where the column leaves it to the data.
+  ColumnWriter(Output& output, const Column& column, uint64_t expected_rows, size_t text_bytes = 0,
+               uint64_t columns = 0);
+
+  void append(const void* rows, size_t count);
+  /// Writes what is left and the attributes, and closes. \return the digest.
+  std::string finish();
+  uint64_t rows() const { return rows_; }
+
+ private:
+  void write_pending();
+
+  Output& output_;
+  const Column& column_;
+  uint64_t columns_;
+  size_t row_bytes_, chunk_rows_;
+  Handle type_, dataset_;
+  std::vector<std::byte> pending_;
+  uint64_t rows_ = 0, written_ = 0;
+  Digest digest_;
+};
+
+}  // namespace veduta::hdf5

@@ -1,0 +1,189 @@
+#include "pvs/pvs_check.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+
+#include "pvs/pvs_layout.h"
+#include "scene/error.h"
+
+namespace veduta {
+
+namespace {
+
+using Defect = std::optional<std::string>;
+
+bool finite(const glm::vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+Defect check_arrays(const City& city) {
+  const Scene& scene = city.scene;
+  if (scene.vertices.size() > UINT32_MAX) return "/scene/vertices: more than 2^32 - 1";
+  if (scene.objects.size() > UINT32_MAX) return "/scene/objects: more than 2^32 - 1";
+  if (city.cells.size() > UINT32_MAX) return "/cells/bounds: more than 2^32 - 1";
+  if (scene.material.size() != scene.triangles.size()) return "/scene/material: not one for each triangle";
+  if (city.triangle_slices.size() != scene.triangles.size())
+    return "/scene/triangle_slice: not one for each triangle";
+  if (city.slices.size() != scene.objects.size()) return "/scene/objects/slices: not one for each object";
+  for (const double x : scene.origin)
+    if (!std::isfinite(x)) return "/@origin: not finite";
+  // Texts are stored padded with NUL.
+  const auto has_nul = [](const std::string& text) { return text.find('\0') != std::string::npos; };
+  if (has_nul(scene.crs)) return "/@crs: holds a NUL character";
+  for (const Object& object : scene.objects)
+    if (has_nul(object.name)) return "/scene/objects/name: a name holds a NUL character";
+  for (const Part& part : scene.parts)
+    if (has_nul(part.name)) return "/scene/parts/name: a name holds a NUL character";
+  return {};
+}
+
+Defect check_geometry(const Scene& scene) {
+  for (size_t v = 0; v < scene.vertices.size(); ++v)
+    if (!finite(scene.vertices[v])) return fmt::format("/scene/vertices: vertex {} is not finite", v);
+  for (size_t t = 0; t < scene.triangles.size(); ++t) {
+    const glm::uvec3 corner = scene.triangles[t];
+    if (std::max({corner.x, corner.y, corner.z}) >= scene.vertices.size())
+      return fmt::format("/scene/triangles: triangle {} names a vertex that is not there", t);
+    if (scene.material[t] > Material::vegetation)
+      return fmt::format("/scene/material: triangle {}: unknown material", t);
+  }
+  return {};
+}
+
+Defect check_objects(const City& city) {
+  const Scene& scene = city.scene;
+  uint64_t end = 0;
+  for (size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    if (object.triangle_begin != end || object.triangle_end < end ||
+        object.triangle_end > scene.triangles.size())
+      return fmt::format("/scene/objects/triangle_begin: object {} does not follow the one before it", i);
+    end = object.triangle_end;
+    if (object.kind > Kind::other) return fmt::format("/scene/objects/kind: object {}: unknown kind", i);
+    const SliceCounts n = city.slices[i];
+    if (n.x < 1 || n.y < 1 || n.z < 1 || n.x > 127 || n.y > 127 || n.z > 127)
+      return fmt::format("/scene/objects/slices: object {}: not 1 to 127", i);
+    const auto within = [](uint8_t first, uint8_t last, uint8_t count) {
+      return first >= 1 && first <= last && last <= count;
+    };
+    for (uint64_t t = object.triangle_begin; t < end; ++t) {
+      const TriangleSlices s = city.triangle_slices[t];
+      if (!within(s.x_first, s.x_last, n.x) || !within(s.y_first, s.y_last, n.y) ||
+          !within(s.z_first, s.z_last, n.z))
+        return fmt::format("/scene/triangle_slice: triangle {} is outside of the slices of object {}", t, i);
+    }
+  }
+  if (end != scene.triangles.size())
+    return fmt::format("/scene/objects/triangle_begin: {} of {} triangles belong to an object", end,
+                       scene.triangles.size());
+  for (size_t i = 0; i < scene.parts.size(); ++i) {
+    const Part& part = scene.parts[i];
+    if (part.object >= scene.objects.size())
+      return fmt::format("/scene/parts/object: part {}: no such object", i);
+    const Object& object = scene.objects[part.object];
+    if (part.triangle_begin < object.triangle_begin || part.triangle_end < part.triangle_begin ||
+        part.triangle_end > object.triangle_end)
+      return fmt::format("/scene/parts/triangle_begin: part {} is outside of its object", i);
+  }
+  return {};
+}
+
+Defect check_octree(const FreeOctree& octree) {
+  const char* place = "/navigation/octree/states";
+  if (octree.first_child.size() != octree.states.size())
+    return "/navigation/octree/first_child: not one for each node";
+  if (!finite(octree.lower) || !std::isfinite(octree.leaf_size_m) || octree.leaf_size_m <= 0 ||
+      octree.depth > octree_depth_limit)
+    return "/navigation/octree: its cube is not a cube";
+  // Children come after their node, so one pass knows each node's level, and no walk can go in a circle.
+  std::vector<uint8_t> level(octree.states.size(), 0);
+  for (size_t i = 0; i < octree.states.size(); ++i) {
+    const unsigned state = octree.states[i];
+    if ((state & (state >> 1) & 0x5555u) != 0)
+      return fmt::format("{}: node {}: a child in no known state", place, i);
+    const uint64_t mixed = static_cast<uint64_t>(std::popcount((state >> 1) & 0x5555u));
+    if (level[i] >= octree.depth) return fmt::format("{}: node {} is deeper than the tree", place, i);
+    if (mixed == 0) continue;
+    const uint64_t child = octree.first_child[i];
+    if (child <= i || child + mixed > octree.states.size())
+      return fmt::format("/navigation/octree/first_child: node {}: its children are not behind it", i);
+    for (uint64_t k = child; k < child + mixed; ++k)
+      level[k] = std::max(level[k], static_cast<uint8_t>(level[i] + 1));
+  }
+  return {};
+}
+
+Defect check_ground(const HeightField& ground) {
+  if (ground.height.size() != uint64_t{ground.nx} * ground.ny)
+    return "/navigation/ground/height: not ny * nx values";
+  if (!std::isfinite(ground.lower_x) || !std::isfinite(ground.lower_y) || !std::isfinite(ground.step_m) ||
+      ground.step_m <= 0)
+    return "/navigation/ground: its grid is not a grid";
+  for (const float height : ground.height)
+    if (std::isinf(height)) return "/navigation/ground/height: an infinite height";
+  return {};
+}
+
+Defect check_cells(const std::vector<Box>& cells) {
+  for (size_t i = 0; i < cells.size(); ++i)
+    if (!finite(cells[i].lower) || !finite(cells[i].upper) || cells[i].empty())
+      return fmt::format("/cells/bounds: cell {} is not a box", i);
+  return {};
+}
+
+bool index_within(VisibilityIndex index, SliceCounts n) {
+  // x = +k with 1 <= k <= n; x = -k means slices from k+1 on, 1 <= k < n; z as x > 0.
+  const auto side = [](int value, int count) { return value > 0 ? value <= count : -value < count; };
+  return index.z >= 0 && index.z <= n.z && side(index.x, n.x) && side(index.y, n.y) &&
+         (index.x == 0 || index.y == 0) && !index.nothing();
+}
+
+}  // namespace
+
+Defect find_defect(const City& city) {
+  if (Defect defect = check_arrays(city)) return defect;
+  if (Defect defect = check_geometry(city.scene)) return defect;
+  if (Defect defect = check_objects(city)) return defect;
+  if (Defect defect = check_cells(city.cells)) return defect;
+  if (Defect defect = check_octree(city.navigation.free)) return defect;
+  return check_ground(city.navigation.ground);
+}
+
+Defect find_defect(const PvsEntry* first, const PvsEntry* last, const std::vector<SliceCounts>& slices) {
+  for (const PvsEntry* entry = first; entry != last; ++entry) {
+    if (entry->object >= slices.size()) return fmt::format("object {} of {}", entry->object, slices.size());
+    if (entry != first && entry->object <= (entry - 1)->object)
+      return fmt::format("object {} is not in ascending order", entry->object);
+    if (!index_within(entry->index, slices[entry->object]))
+      return fmt::format("object {}: the index {}, {}, {} is outside of its slices", entry->object,
+                         int{entry->index.x}, int{entry->index.y}, int{entry->index.z});
+  }
+  return {};
+}
+
+Defect find_row_defect(const PvsFile& file) {
+  const size_t cells = file.city.cells.size();
+  if (file.cell_row.size() != cells) return "/cells/row: not one for each cell";
+  if (file.cell_status.size() != cells) return "/cells/status: not one for each cell";
+  if (file.bake_us.size() != cells) return "/cells/bake_us: not one for each cell";
+  if (file.row_begin.empty() || file.row_begin.front() != 0 || file.row_begin.back() != file.entries.size())
+    return "/pvs/begin: does not span the entries";
+  const size_t rows = file.row_begin.size() - 1;
+  for (size_t c = 0; c < cells; ++c) {
+    if (file.cell_row[c] >= rows) return fmt::format("/cells/row: cell {} names a row that is not there", c);
+    if (file.cell_status[c] > CellStatus::all_visible)
+      return fmt::format("/cells/status: cell {}: unknown status", c);
+  }
+  for (size_t r = 0; r < rows; ++r)
+    if (file.row_begin[r] > file.row_begin[r + 1] || file.row_begin[r + 1] > file.entries.size())
+      return fmt::format("/pvs/begin: row {} ends before it begins", r);
+  for (size_t r = 0; r < rows; ++r)
+    if (auto defect = find_defect(file.entries.data() + file.row_begin[r],
+                                  file.entries.data() + file.row_begin[r + 1], file.city.slices))
+      return fmt::format("/pvs/object: row {}: {}", r, *defect);
+  return {};
+}
+
+}  // namespace veduta

@@ -1,0 +1,21 @@
+// What must hold in a city and in a row: asked by the reader of a file and by the writer of a caller.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "pvs/pvs_file.h"
+
+namespace veduta {
+
+/// Every relation between the arrays of a city. \return "DATASET: what" for the first that does not hold.
+std::optional<std::string> find_defect(const City& city);
+
+/// Objects ascending and in range, indices within the objects' slices. \return what does not hold.
+std::optional<std::string> find_defect(const PvsEntry* first, const PvsEntry* last,
+                                       const std::vector<SliceCounts>& slices);
+
+/// Rows against cells and entries against objects, for a file. \return "DATASET: what".
+std::optional<std::string> find_row_defect(const PvsFile& file);
+
+}  // namespace veduta

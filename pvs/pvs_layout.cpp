@@ -1,0 +1,48 @@
+#include "pvs/pvs_layout.h"
+
+#include "pvs/digest.h"
+
+namespace veduta {
+
+std::string content_digest(const City& city, bool conservative, const ColumnDigests& digests) {
+  Digest digest;
+  for (const auto& [path, hex] : digests) {
+    if (path == column::cell_bake_us.path) continue;  // differs from run to run
+    digest.update_text(path);
+    digest.update_text(hex);
+  }
+  digest.update_text(city.scene.crs);
+  digest.update(city.scene.origin.data(), sizeof city.scene.origin);
+  const FreeOctree& octree = city.navigation.free;
+  digest.update(&octree.lower, sizeof octree.lower);
+  digest.update(&octree.leaf_size_m, sizeof octree.leaf_size_m);
+  digest.update(&octree.depth, sizeof octree.depth);
+  const HeightField& ground = city.navigation.ground;
+  digest.update(&ground.lower_x, sizeof ground.lower_x);
+  digest.update(&ground.lower_y, sizeof ground.lower_y);
+  digest.update(&ground.step_m, sizeof ground.step_m);
+  const uint8_t safe = conservative ? 1 : 0;
+  digest.update(&safe, sizeof safe);
+  return digest.hex();
+}
+
+std::string header_digest(const RootAttributes& root) {
+  Digest digest;
+  for (const std::string& text : {root.format, root.unit, root.up, root.crs, root.header.fingerprint,
+                                  root.header.config, root.header.renderer, root.content_digest})
+    digest.update_text(text);
+  digest.update(&root.version, sizeof root.version);
+  digest.update(root.origin.data(), sizeof root.origin);
+  const uint8_t flags[2] = {root.header.complete, root.header.conservative};
+  digest.update(flags, sizeof flags);
+  return digest.hex();
+}
+
+Box triangle_bounds(const Scene& scene, const Object& object) {
+  Box box;
+  for (uint64_t t = object.triangle_begin; t < object.triangle_end; ++t)
+    for (int k = 0; k < 3; ++k) box.extend(scene.vertices[scene.triangles[t][k]]);
+  return box;
+}
+
+}  // namespace veduta

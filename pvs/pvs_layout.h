@@ -1,0 +1,114 @@
+// Names, descriptions and limits of what a file holds (DESIGN §9): the one list that writer, reader and
+// checks share.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+
+#include "pvs/hdf5_handle.h"
+#include "pvs/pvs_file.h"
+
+namespace veduta {
+
+inline constexpr uint32_t pvs_version = 1;
+inline constexpr const char* pvs_format = "veduta-pvs";
+inline constexpr const char* city_format = "veduta-city";  ///< a prepared city: no rows
+inline constexpr size_t chunk_bytes = 256 * 1024;
+inline constexpr uint32_t octree_depth_limit = 32;
+inline constexpr uint64_t attribute_bytes_limit = 16u << 20;
+
+/// One dataset. `columns` is the extent after the first: 1 for a vector; 0 stands for what the data says.
+struct Column {
+  const char* path;
+  hdf5::Element element;
+  uint64_t columns;
+  const char* description;
+};
+
+namespace column {
+using hdf5::Element;
+inline constexpr Column vertices{"/scene/vertices", Element::f32, 3,
+                                 "[V,3] x, y, z of each vertex, m, relative to the root's origin"};
+inline constexpr Column triangles{"/scene/triangles", Element::u32, 3, "[T,3] vertices of each triangle"};
+inline constexpr Column material{
+    "/scene/material", Element::u8, 1,
+    "[T] 0 unknown, 1 wall, 2 roof, 3 ground, 4 terrain, 5 road, 6 water, 7 vegetation"};
+inline constexpr Column triangle_slice{
+    "/scene/triangle_slice", Element::u8, 6,
+    "[T,6] first and last slice that the triangle touches along x, y, z; 1-based"};
+inline constexpr Column object_name{"/scene/objects/name", Element::text, 1, "[N] name of each object"};
+inline constexpr Column object_kind{
+    "/scene/objects/kind", Element::u8, 1,
+    "[N] 0 building, 1 terrain, 2 road, 3 water, 4 vegetation, 5 bridge, 6 other"};
+inline constexpr Column object_bounds{
+    "/scene/objects/bounds", Element::f32, 6,
+    "[N,6] lower x, y, z and upper x, y, z, m; inf, -inf for an object without triangles"};
+inline constexpr Column object_begin{
+    "/scene/objects/triangle_begin", Element::u64, 1,
+    "[N+1] triangles of object i are triangle_begin[i] to triangle_begin[i+1]-1"};
+inline constexpr Column object_slices{"/scene/objects/slices", Element::u8, 3,
+                                      "[N,3] slices along x, y, z, 1 to 127"};
+inline constexpr Column part_name{"/scene/parts/name", Element::text, 1,
+                                  "[P] name of each named part of an object"};
+inline constexpr Column part_object{"/scene/parts/object", Element::u32, 1,
+                                    "[P] the object that the part belongs to"};
+inline constexpr Column part_begin{"/scene/parts/triangle_begin", Element::u64, 1, "[P] first triangle"};
+inline constexpr Column part_end{"/scene/parts/triangle_end", Element::u64, 1,
+                                 "[P] one past the last triangle"};
+inline constexpr Column cell_bounds{
+    "/cells/bounds", Element::f32, 6,
+    "[C,6] lower x, y, z and upper x, y, z of each view-cell, a closed box, m"};
+inline constexpr Column octree_states{
+    "/navigation/octree/states", Element::u16, 1,
+    "[M] bits 2k, 2k+1: child k = x+2y+4z is 0 not navigable, 1 navigable, 2 mixed"};
+inline constexpr Column octree_first_child{"/navigation/octree/first_child", Element::u32, 1,
+                                           "[M] the first mixed child; the others follow it"};
+inline constexpr Column ground_height{
+    "/navigation/ground/height", Element::f32, 0,
+    "[ny,nx] highest ground in each square of edge step_m, m; NaN where there is none"};
+inline constexpr Column cell_row{"/cells/row", Element::u32, 1,
+                                 "[C] row of /pvs of each cell; cells share equal rows"};
+inline constexpr Column cell_bake_us{"/cells/bake_us", Element::u32, 1,
+                                     "[C] time that the bake of the cell took, us"};
+inline constexpr Column cell_status{"/cells/status", Element::u8, 1, "[C] 0 baked, 1 coarse, 2 all visible"};
+inline constexpr Column pvs_begin{"/pvs/begin", Element::u64, 1,
+                                  "[R+1] entries of row r are begin[r] to begin[r+1]-1"};
+inline constexpr Column pvs_object{"/pvs/object", Element::u32, 1, "[K] visible objects, ascending in a row"};
+inline constexpr Column pvs_index{"/pvs/index", Element::i8, 3,
+                                  "[K,3] x, y, z. A triangle is visible when z >= 1 and its last z-slice >= "
+                                  "z, or x > 0 and its first x-slice <= x, or "
+                                  "x < 0 and its last x-slice >= -x+1, or the same for y"};
+
+inline constexpr const Column* all[] = {
+    &vertices,      &triangles,    &material,      &triangle_slice,     &object_name,   &object_kind,
+    &object_bounds, &object_begin, &object_slices, &part_name,          &part_object,   &part_begin,
+    &part_end,      &cell_bounds,  &octree_states, &octree_first_child, &ground_height, &cell_row,
+    &cell_bake_us,  &cell_status,  &pvs_begin,     &pvs_object,         &pvs_index};
+}  // namespace column
+
+/// By path: the digest of each dataset, 32 hex digits.
+using ColumnDigests = std::map<std::string, std::string>;
+
+/// Attributes of the root, as text or number; everything that `header_digest` covers.
+struct RootAttributes {
+  std::string format;
+  uint32_t version = pvs_version;
+  std::string unit = "m", up = "z", crs;
+  std::array<double, 3> origin{};
+  PvsHeader header;
+  std::string content_digest;
+};
+
+/// XXH3-128 over the logical content: dataset digests in the order of their paths without /cells/bake_us, and
+/// the attributes that give numbers a meaning. Not over config, renderer and fingerprint, which say how it
+/// was made.
+std::string content_digest(const City& city, bool conservative, const ColumnDigests& digests);
+
+/// XXH3-128 over the root's attributes: without it, a flipped bit in a text could go unseen.
+std::string header_digest(const RootAttributes& root);
+
+/// Bounds over the vertices that the object's triangles use.
+Box triangle_bounds(const Scene& scene, const Object& object);
+
+}  // namespace veduta

@@ -1,0 +1,75 @@
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "pvs/city_columns.h"
+#include "pvs/pvs_check.h"
+#include "scene/error.h"
+
+namespace veduta {
+
+namespace {
+
+using hdf5::ColumnReader;
+using hdf5::Input;
+
+void read_entries(const Input& input, std::vector<PvsEntry>& entries, ColumnDigests& digests) {
+  const ColumnReader object(input, column::pvs_object);
+  const ColumnReader index(input, column::pvs_index);
+  if (object.rows() != index.rows())
+    input.fail(column::pvs_index.path, "not one for each object of /pvs/object");
+  entries.resize(object.rows());
+  digests[column::pvs_object.path] = object.read([&](const std::byte* rows, uint64_t first, size_t count) {
+    for (size_t i = 0; i < count; ++i) std::memcpy(&entries[first + i].object, rows + 4 * i, 4);
+  });
+  digests[column::pvs_index.path] = index.read([&](const std::byte* rows, uint64_t first, size_t count) {
+    for (size_t i = 0; i < count; ++i) std::memcpy(&entries[first + i].index, rows + 3 * i, 3);
+  });
+}
+
+/// The city with its root, every relation and the content digest checked.
+void finish_city(const Input& input, const RootAttributes& root, const ColumnDigests& digests, City& city) {
+  city.scene.crs = root.crs;
+  city.scene.origin = root.origin;
+  if (const auto defect = find_defect(city)) {
+    const size_t colon = defect->find(": ");
+    input.fail(defect->substr(0, colon), defect->substr(colon + 2));
+  }
+  if (content_digest(city, root.header.conservative, digests) != root.content_digest)
+    input.fail("/@content_digest", "does not hold; get the file again, or bake again");
+}
+
+}  // namespace
+
+PvsFile read_pvs(const std::filesystem::path& path) {
+  const Input input(path);
+  const RootAttributes root = read_root(input, pvs_format);
+  ColumnDigests digests;
+  PvsFile file;
+  file.header = root.header;
+  file.content_digest = root.content_digest;
+  file.city = read_city_columns(input, digests);
+  digests[column::cell_row.path] = ColumnReader(input, column::cell_row).read_into(file.cell_row);
+  digests[column::cell_bake_us.path] = ColumnReader(input, column::cell_bake_us).read_into(file.bake_us);
+  digests[column::cell_status.path] = ColumnReader(input, column::cell_status).read_into(file.cell_status);
+  digests[column::pvs_begin.path] = ColumnReader(input, column::pvs_begin).read_into(file.row_begin);
+  read_entries(input, file.entries, digests);
+  finish_city(input, root, digests, file.city);
+  if (const auto defect = find_row_defect(file)) {
+    const size_t colon = defect->find(": ");
+    input.fail(defect->substr(0, colon), defect->substr(colon + 2));
+  }
+  file.index_cells();
+  return file;
+}
+
+City read_city(const std::filesystem::path& path) {
+  const Input input(path);
+  const RootAttributes root = read_root(input, city_format);
+  ColumnDigests digests;
+  City city = read_city_columns(input, digests);
+  finish_city(input, root, digests, city);
+  return city;
+}
+
+}  // namespace veduta
