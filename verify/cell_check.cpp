@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <map>
 
 #include "verify/directions.h"
@@ -31,17 +32,23 @@ class Shooter {
         cell_(cell),
         rays_(rays),
         drawn_(drawn_by(file, cell)),
-        targets_(file.city.scene, drawn_),
+        hidden_(file.city.scene, drawn_),
+        unmet_(hidden_),
         seen_(drawn_.size(), 0) {}
 
-  // Half uniform, half aimed; where nothing is hidden, all uniform.
+  // A quarter all over the sphere, half at what the row does not draw, a quarter at what it draws and no ray
+  // has met: the fewer of those, the tighter the over-estimate. Where there is nothing to aim at, all over
+  // the sphere instead.
   void look(const glm::vec3& eye, uint64_t count, Random& random) {
-    const uint64_t aimed = targets_.empty() ? 0 : count / 2, uniform = count - aimed;
+    if (std::has_single_bit(++looks_)) unmet_ = Targets(file_.city.scene, met_or_undrawn());
+    const uint64_t at_hidden = hidden_.empty() ? 0 : count / 2, at_unmet = unmet_.empty() ? 0 : count / 4;
+    const uint64_t uniform = count - at_hidden - at_unmet;
     const uint64_t wrong = shoot(eye, sphere_directions(uniform, random));
     if (uniform > 0)
       worst_share_ = std::max(worst_share_, static_cast<double>(wrong) / static_cast<double>(uniform));
     uniform_ += uniform, uniform_wrong_ += wrong;
-    shoot(eye, targets_.directions(eye, aimed, random));
+    shoot(eye, hidden_.directions(eye, at_hidden, random));
+    shoot(eye, unmet_.directions(eye, at_unmet, random));
   }
 
   CellCheck result() const {
@@ -59,6 +66,12 @@ class Shooter {
   }
 
  private:
+  std::vector<uint8_t> met_or_undrawn() const {
+    std::vector<uint8_t> result(drawn_.size());
+    for (size_t t = 0; t < result.size(); ++t) result[t] = seen_[t] || !drawn_[t];
+    return result;
+  }
+
   // Returns how many of the rays meet what the row does not draw.
   uint64_t shoot(const glm::vec3& eye, const std::vector<glm::vec3>& directions) {
     hits_.resize(directions.size());
@@ -132,7 +145,8 @@ class Shooter {
   uint32_t cell_;
   const RayScene& rays_;
   std::vector<uint8_t> drawn_;
-  HiddenTargets targets_;
+  Targets hidden_, unmet_;
+  uint32_t looks_ = 0;
   std::vector<uint8_t> seen_;
   std::vector<Hit> hits_;
   std::map<uint32_t, FalseInvisible>

@@ -53,25 +53,25 @@ std::vector<glm::vec3> sphere_directions(size_t count, Random& random) {
   return directions;
 }
 
-HiddenTargets::HiddenTargets(const Scene& scene, const std::vector<uint8_t>& drawn) : scene_(scene) {
+Targets::Targets(const Scene& scene, const std::vector<uint8_t>& left_out) : scene_(&scene) {
   for (const Object& object : scene.objects) {
     const size_t before = triangles_.size();
     for (uint64_t t = object.triangle_begin; t < object.triangle_end; ++t)
-      if (!drawn[t]) triangles_.push_back(static_cast<uint32_t>(t));
+      if (!left_out[t]) triangles_.push_back(static_cast<uint32_t>(t));
     if (triangles_.size() > before) object_begin_.push_back(static_cast<uint32_t>(before));
   }
   object_begin_.push_back(static_cast<uint32_t>(triangles_.size()));
 }
 
-glm::vec3 HiddenTargets::point(Random& random) const {
+glm::vec3 Targets::point(Random& random) const {
   uint32_t first = 0, last = static_cast<uint32_t>(triangles_.size());
   if (random.below(2) == 0) {
     const uint32_t object = random.below(object_begin_.size() - 1);
     first = object_begin_[object], last = object_begin_[object + 1];
   }
-  const glm::uvec3& triangle = scene_.triangles[triangles_[first + random.below(last - first)]];
-  glm::vec3 corner[3] = {scene_.vertices[triangle.x], scene_.vertices[triangle.y],
-                         scene_.vertices[triangle.z]};
+  const glm::uvec3& triangle = scene_->triangles[triangles_[first + random.below(last - first)]];
+  glm::vec3 corner[3] = {scene_->vertices[triangle.x], scene_->vertices[triangle.y],
+                         scene_->vertices[triangle.z]};
   if (random.below(2) == 0) {
     // Shrunk to a fiftieth around one corner.
     const glm::vec3 center = corner[random.below(3)];
@@ -81,7 +81,7 @@ glm::vec3 HiddenTargets::point(Random& random) const {
   return corner[0] * (1 - root) + corner[1] * (root * (1 - side)) + corner[2] * (root * side);
 }
 
-std::vector<glm::vec3> HiddenTargets::directions(const glm::vec3& eye, size_t count, Random& random) const {
+std::vector<glm::vec3> Targets::directions(const glm::vec3& eye, size_t count, Random& random) const {
   std::vector<std::pair<uint32_t, glm::vec3>> keyed;
   keyed.reserve(count);
   while (keyed.size() < count) {

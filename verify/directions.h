@@ -1,4 +1,4 @@
-// Where a verifier looks to: over the whole sphere, and at what a row says is hidden.
+// Where a verifier looks to: over the whole sphere, and at chosen triangles.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +14,16 @@ namespace veduta {
 /// solid angle. Neighbours in the result lie close together. Solid angles are estimated from these alone.
 std::vector<glm::vec3> sphere_directions(size_t count, Random& random);
 
-/// Points on the triangles that a row does not draw: rays at them are the ones that find an error. (In a walk
-/// through a city most of the sphere is ground, sky and the next wall.)
-class HiddenTargets {
+/// Triangles to aim at: those that a row does not draw, where an error would show, and those that it draws
+/// and no ray has met yet. (In a walk through a city most of the sphere is ground, sky and the next wall.)
+class Targets {
  public:
-  /// `drawn`: [T], 0 or 1.
-  HiddenTargets(const Scene& scene, const std::vector<uint8_t>& drawn);
+  /// `left_out`: [T], 1 for a triangle that is no target, else 0.
+  Targets(const Scene& scene, const std::vector<uint8_t>& left_out);
   bool empty() const { return triangles_.empty(); }
 
-  /// `count` unit vectors from the eye to random points: of a random hidden triangle, or of a random object's
-  /// random hidden triangle, by turns (a tower of 12 triangles is not lost beside a tree of 10,000); half of
+  /// `count` unit vectors from the eye to random points: of a random target, or of a random object's
+  /// random target, by turns (a tower of 12 triangles is not lost beside a tree of 10,000); half of
   /// the points anywhere on it, half by a corner, since what shows first over an occluder or past it is a
   /// corner. In Morton order of direction.
   std::vector<glm::vec3> directions(const glm::vec3& eye, size_t count, Random& random) const;
@@ -31,8 +31,8 @@ class HiddenTargets {
  private:
   glm::vec3 point(Random& random) const;
 
-  const Scene& scene_;
-  std::vector<uint32_t> triangles_;     ///< hidden ones, ascending, so by object
+  const Scene* scene_;
+  std::vector<uint32_t> triangles_;     ///< the targets, ascending, so by object
   std::vector<uint32_t> object_begin_;  ///< [O+1] into triangles_, of objects with any
 };
 

@@ -1,0 +1,78 @@
+#include "verify/ray_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "scene/error.h"
+#include "tests/verify/toy_city.h"
+#include "verify/directions.h"
+#include "verify/settle.h"
+
+namespace veduta {
+namespace {
+
+using toy::Street;
+
+// The slow, obvious kernel: every triangle, exactly.
+std::optional<uint32_t> met_by_all(const Scene& scene, const glm::vec3& eye, const glm::vec3& direction) {
+  std::vector<uint32_t> all(scene.triangles.size());
+  for (uint32_t t = 0; t < all.size(); ++t) all[t] = t;
+  return undrawn_met_first(scene, eye, direction, all, std::vector<uint8_t>(all.size(), 0));
+}
+
+TEST(RayScene, AgreesWithExactArithmeticOverAllTriangles) {
+  const Scene scene = Street::scene();
+  const RayScene rays(scene);
+  Random random(5);
+  const glm::vec3 eye{1.25f, 2.5f, 1.7f};
+  const auto directions = sphere_directions(3001, random);
+  std::vector<Hit> hits(directions.size());
+  rays.first_hits(eye, directions, hits);
+  size_t met = 0;
+  for (size_t i = 0; i < directions.size(); ++i) {
+    const auto exact = met_by_all(scene, eye, directions[i]);
+    ASSERT_EQ(hits[i].triangle, exact.value_or(Hit::none)) << "ray " << i;
+    met += exact.has_value();
+  }
+  EXPECT_GT(met, 1000u);
+  EXPECT_LT(met, directions.size());
+}
+
+TEST(RayScene, TrianglesNearHoldAllThatTheRayMeets) {
+  const Scene scene = Street::scene();
+  const RayScene rays(scene);
+  Random random(6);
+  const glm::vec3 eye{1, 1, 1.7f};
+  for (const glm::vec3& direction : sphere_directions(500, random)) {
+    const auto exact = met_by_all(scene, eye, direction);
+    const auto near = rays.triangles_near(eye, direction, 200);
+    EXPECT_TRUE(std::is_sorted(near.begin(), near.end()));
+    if (exact) {
+      EXPECT_TRUE(std::binary_search(near.begin(), near.end(), *exact));
+    }
+  }
+}
+
+TEST(RayScene, BlockedByAWallAndByTouchingIt) {
+  const Scene scene = Street::scene();
+  const RayScene rays(scene);
+  EXPECT_TRUE(rays.blocked({5, 0, 2}, {15, 0, 2}));
+  EXPECT_TRUE(rays.blocked({15, 0, 2}, {5, 0, 2}));
+  EXPECT_TRUE(rays.blocked({5, 0, 2}, {10, 0, 2})) << "a point on the wall";
+  EXPECT_FALSE(rays.blocked({5, 0, 2}, {9.9f, 0, 2}));
+}
+
+TEST(RayScene, SceneWithoutTrianglesIsRefused) {
+  const Scene empty;
+  try {
+    const RayScene rays(empty);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::bad_input);
+  }
+}
+
+}  // namespace
+}  // namespace veduta

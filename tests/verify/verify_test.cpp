@@ -1,0 +1,192 @@
+#include "verify/verify.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/verify/toy_city.h"
+#include "verify/ray_scene.h"
+
+namespace veduta {
+namespace {
+
+using toy::Street;
+
+constexpr VerifyOptions few{.cells = 8, .rays_per_cell = 40'000, .eyes_per_cell = 40, .seed = 7};
+
+// The ray of an example, shot again, must meet the triangle that it names.
+void expect_reproduces(const PvsFile& file, const FalseInvisible& example) {
+  const RayScene rays(file.city.scene);
+  Hit hit;
+  rays.first_hits(example.eye, {&example.direction, 1}, {&hit, 1});
+  EXPECT_EQ(hit.triangle, example.triangle);
+  const Object& object = file.city.scene.objects[example.object];
+  EXPECT_GE(example.triangle, object.triangle_begin);
+  EXPECT_LT(example.triangle, object.triangle_end);
+  EXPECT_TRUE(file.city.cells[example.cell].contains(example.eye));
+}
+
+TEST(Verify, RowWithAllThatIsSeenPasses) {
+  const PvsFile file = Street::file(Street::row({Street::ground, Street::wall, Street::tower}));
+  const VerifyReport report = verify(file, few);
+  EXPECT_TRUE(report.passed());
+  EXPECT_EQ(report.cells_checked, 1u);
+  EXPECT_EQ(report.cells_without_eye, 0u);
+  EXPECT_EQ(report.rays, few.rays_per_cell);
+  EXPECT_GT(report.hits, 0u);
+  EXPECT_TRUE(report.examples.empty());
+  EXPECT_DOUBLE_EQ(report.overestimate_objects, 1);
+  EXPECT_DOUBLE_EQ(report.drawn_of_whole_objects, 1);
+  EXPECT_NE(describe(report, file).find("passed"), std::string::npos);
+}
+
+TEST(Verify, HiddenObjectInTheRowIsOverestimateOnly) {
+  const VerifyReport report = verify(Street::file(Street::row({0, 1, 2, 3})), few);
+  EXPECT_TRUE(report.passed());
+  EXPECT_DOUBLE_EQ(report.mean_pvs_objects, 4);
+  EXPECT_DOUBLE_EQ(report.mean_seen_objects, 3);
+  EXPECT_DOUBLE_EQ(report.overestimate_objects, 4.0 / 3);
+  EXPECT_DOUBLE_EQ(report.overestimate_objects_worst, 4.0 / 3);
+  EXPECT_DOUBLE_EQ(report.overestimate_buildings, 3.0 / 2);
+}
+
+TEST(Verify, MissingVisibleObjectFailsAndTheExampleReproduces) {
+  const PvsFile file = Street::file(Street::row({Street::ground, Street::wall}));
+  const VerifyReport report = verify(file, few);
+  EXPECT_FALSE(report.passed());
+  EXPECT_EQ(report.false_invisible_objects, 1u);
+  EXPECT_GT(report.false_invisible_triangles, 0u);
+  EXPECT_GT(report.false_invisible_solid_angle_mean, 0);
+  EXPECT_GE(report.false_invisible_solid_angle_worst, report.false_invisible_solid_angle_mean);
+  ASSERT_EQ(report.examples.size(), 1u);
+  EXPECT_EQ(report.examples[0].object, Street::tower);
+  expect_reproduces(file, report.examples[0]);
+  EXPECT_NE(describe(report, file).find("\"tower\""), std::string::npos);
+  const auto json = nlohmann::json::parse(describe_json(report, file));
+  EXPECT_EQ(json["examples"][0]["name"], "tower");
+  EXPECT_EQ(json["passed"], false);
+}
+
+// A pole of 2 cm over a wall's top covers some 1e-5 of the sphere: aimed rays meet it for sure.
+TEST(Verify, SpeckIsFoundByAimedRays) {
+  Scene scene = Street::scene();
+  toy::add_box(scene, "speck", {{30, 1, 36}, {30.02f, 1.02f, 60}});
+  const PvsFile file = toy::make_file(scene, {Street::cell()}, {Street::row({0, 1, 3})});
+  const VerifyReport report = verify(file, few);
+  ASSERT_FALSE(report.passed());
+  EXPECT_EQ(report.false_invisible_objects, 1u);
+  expect_reproduces(file, report.examples.at(0));
+}
+
+TEST(Verify, SliceByteThatHidesAVisibleTriangleFails) {
+  PvsFile file = Street::file({{0, completely_visible}, {1, completely_visible}, {3, {0, 0, 2}}});
+  const Object& tower = file.city.scene.objects[Street::tower];
+  file.city.slices[Street::tower].z = 2;
+  // Two slices: the roof and the walls reach the upper one, the floor does not.
+  for (uint64_t t = tower.triangle_begin; t < tower.triangle_end; ++t)
+    file.city.triangle_slices[t].z_last = 2;
+  EXPECT_TRUE(verify(file, few).passed());
+  // Now two triangles of a wall that is seen are said to end in the lower slice.
+  file.city.triangle_slices[tower.triangle_begin + 8].z_last = 1;
+  file.city.triangle_slices[tower.triangle_begin + 9].z_last = 1;
+  const VerifyReport report = verify(file, few);
+  EXPECT_FALSE(report.passed());
+  EXPECT_EQ(report.false_invisible_triangles, 2u);
+  ASSERT_FALSE(report.examples.empty());
+  expect_reproduces(file, report.examples[0]);
+}
+
+// Two objects with the same wall, one listed: the picture is the same.
+TEST(Verify, CoincidentWallOfWhichOneIsListedPasses) {
+  for (const uint32_t listed : {1u, 4u}) {
+    Scene scene = Street::scene();
+    toy::add_box(scene, "wall again", scene.bounds(scene.objects[Street::wall]));
+    const PvsFile file = toy::make_file(scene, {Street::cell()}, {Street::row({0, listed, 3})});
+    EXPECT_TRUE(verify(file, few).passed()) << "listed: " << listed;
+  }
+}
+
+TEST(Verify, WallAHairInFrontIsNotCoincident) {
+  Scene scene = Street::scene();
+  toy::add_box(scene, "poster", {{std::nextafter(10.0f, 0.0f), -1, 1}, {10, 1, 2}});
+  const PvsFile file = toy::make_file(scene, {Street::cell()}, {Street::row({0, 1, 3})});
+  const VerifyReport report = verify(file, few);
+  EXPECT_FALSE(report.passed());
+}
+
+TEST(Verify, CellWithoutAnEyePointIsCountedAndNothingCheckedIsNotPassed) {
+  Scene scene = Street::scene();
+  toy::add_box(scene, "block", {{-4, -4, 0}, {8, 8, 8}});
+  const PvsFile file = toy::make_file(scene, {Street::cell()}, {PvsRow{}});
+  const VerifyReport report = verify(file, few);
+  EXPECT_EQ(report.cells_without_eye, 1u);
+  EXPECT_EQ(report.rays, 0u);
+  EXPECT_FALSE(report.passed());
+  EXPECT_NE(describe(report, file).find("nothing was checked"), std::string::npos);
+}
+
+PvsFile nine_cells() {
+  std::vector<Box> cells;
+  std::vector<PvsRow> rows;
+  for (int i = 0; i < 9; ++i) {
+    const glm::vec3 move{-8 * (i % 3), 8 * (i / 3), 0};
+    cells.push_back({Street::cell().lower + move, Street::cell().upper + move});
+    rows.push_back(Street::row({0, 1}));
+  }
+  return toy::make_file(Street::scene(), cells, rows);
+}
+
+std::string without_times(VerifyReport report, const PvsFile& file) {
+  report.elapsed_s = report.rays_per_second = 0;
+  return describe_json(report, file);
+}
+
+TEST(Verify, SameReportForAnyNumberOfThreads) {
+  const PvsFile file = nine_cells();
+  std::string reports[2];
+  for (const size_t threads : {1, 2}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    reports[threads - 1] = without_times(verify(file, few), file);
+  }
+  EXPECT_EQ(reports[0], reports[1]);
+  VerifyOptions other = few;
+  other.seed = 8;
+  EXPECT_NE(without_times(verify(file, other), file), reports[0]);
+}
+
+TEST(Verify, SamplesCellsWithoutReplacementAndReportsProgress) {
+  const PvsFile file = nine_cells();
+  uint32_t calls = 0, total = 0;
+  const VerifyReport all = verify(file, few, [&](uint32_t done, uint32_t of) {
+    EXPECT_EQ(done, ++calls);
+    total = of;
+  });
+  EXPECT_EQ(all.cells_checked, 8u);
+  EXPECT_EQ(calls, 8u);
+  EXPECT_EQ(total, 8u);
+  EXPECT_EQ(all.false_invisible_objects, 8u) << "the tower, once from each of 8 different cells";
+  VerifyOptions more = few;
+  more.cells = 100;
+  EXPECT_EQ(verify(file, more).cells_checked, 9u);
+}
+
+TEST(Verify, AtMostSixteenExamplesNearestFirst) {
+  Scene scene = Street::scene();
+  for (int i = 0; i < 30; ++i)
+    toy::add_box(scene, "box " + std::to_string(i),
+                 {{-10.0f - static_cast<float>(i), 2.0f * static_cast<float>(i) - 30, 0},
+                  {-9.0f - static_cast<float>(i), 2.0f * static_cast<float>(i) - 29, 3}});
+  const PvsFile file = toy::make_file(scene, {Street::cell()}, {Street::row({0, 1, 3})});
+  const VerifyReport report = verify(file, few);
+  EXPECT_GT(report.false_invisible_objects, 16u);
+  ASSERT_EQ(report.examples.size(), 16u);
+  for (size_t i = 1; i < report.examples.size(); ++i)
+    EXPECT_LE(glm::distance(report.examples[i - 1].eye, report.examples[i - 1].hit),
+              glm::distance(report.examples[i].eye, report.examples[i].hit));
+}
+
+}  // namespace
+}  // namespace veduta
