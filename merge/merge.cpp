@@ -1,0 +1,120 @@
+#include "merge/merge.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "merge/child.h"
+#include "merge/record_pool.h"
+#include "pvs/pvs_file.h"
+#include "scene/error.h"
+
+namespace veduta {
+
+namespace {
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream out;
+  if (in && in.peek() != std::ifstream::traits_type::eof()) out << in.rdbuf();
+  if (!in || !out)
+    throw Error(ExitStatus::bad_input,
+                fmt::format("{}: cannot read; name a run directory, as given to bake --out", file.string()));
+  return out.str();
+}
+
+PvsRow all_visible_row(const City& city) {
+  PvsRow row(city.scene.objects.size());
+  for (uint32_t i = 0; i < row.size(); ++i) row[i] = {i, completely_visible};
+  return row;
+}
+
+BakedCell baked_cell(const JournalEntry& entry, uint32_t cell, RecordPool& pool, const City& city,
+                     const std::filesystem::path& shard) {
+  CellRecord record = pool.read(entry.shard, entry.offset);
+  if (record.cell != cell || record.status != entry.status)
+    throw Error(ExitStatus::bad_input,
+                fmt::format("{}: byte {}: another record than before; was the file changed meanwhile? "
+                            "Run the same command again",
+                            shard.string(), entry.offset));
+  if (record.status == CellStatus::all_visible) record.row = all_visible_row(city);
+  return {record.status, record.bake_us, std::move(record.row)};
+}
+
+MergeResult merge(const RunPaths& run, const std::filesystem::path& output, bool partial) {
+  const std::string fingerprint_text = read_text(run.fingerprint());
+  PvsHeader header;
+  header.fingerprint = fingerprint_text.substr(0, fingerprint_text.find_first_of("\r\n"));
+  header.config = read_text(run.settings());
+  const City city = read_city(run.city());
+  const auto cell_count = static_cast<uint32_t>(city.cells.size());
+  const Journal journal = read_journal(run, header.fingerprint, cell_count);
+  header.renderer = fmt::format("{}", fmt::join(journal.renderers, "; "));
+
+  MergeResult result;
+  result.cells = cell_count;
+  result.all_visible = journal.all_visible;
+  result.unfinished = cell_count - journal.done;
+  result.baked = journal.done - journal.all_visible;
+  if (result.unfinished > 0 && !partial)
+    throw Error(
+        ExitStatus::stopped_early,
+        fmt::format(
+            "{}: {} of {} cells are not baked yet; run the bake again to finish it, or merge with --partial",
+            run.directory.string(), result.unfinished, cell_count));
+  RecordPool pool(journal.shards);
+  result.content_digest = write_pvs(output, city, header, [&](uint32_t cell) {
+    const JournalEntry& entry = journal.cells[cell];
+    if (entry.shard < 0) return BakedCell{CellStatus::all_visible, 0, all_visible_row(city)};
+    return baked_cell(entry, cell, pool, city, journal.shards[static_cast<size_t>(entry.shard)]);
+  });
+  result.bytes = std::filesystem::file_size(output);
+  return result;
+}
+
+/// HDF5 1.10 crashes on a full disk: that, and not the crash, is then what the user has to know.
+[[noreturn]] void explain_death(const std::filesystem::path& output, const ChildDeath& death) {
+  ::unlink(temporary_name(output, death.process).c_str());
+  const auto parent = output.has_parent_path() ? output.parent_path() : std::filesystem::path(".");
+  constexpr uint64_t little_bytes = 16u << 20;
+  struct statvfs status {};
+  const bool known = ::statvfs(parent.c_str(), &status) == 0;
+  const uint64_t left = known ? uint64_t{status.f_bavail} * status.f_frsize : 0;
+  const bool full = (known && left < little_bytes) || death.signal == SIGXFSZ;
+  throw Error(
+      ExitStatus::input_output,
+      fmt::format(
+          "{}: the merger {}: {}", output.string(), death.how(),
+          full ? fmt::format(
+                     "this looks like a full disk or quota ({} KiB free); free some space and run again",
+                     left / 1024)
+               : std::string("out of memory, or a defect of HDF5 on this file system; run again, or merge "
+                             "to another disk with -o")));
+}
+
+}  // namespace
+
+MergeResult merge_run(const RunPaths& run, const std::filesystem::path& output, bool partial) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::filesystem::path file = output.empty() ? run.result() : output;
+  const std::string text = run_in_child(
+      [&] {
+        const MergeResult r = merge(run, file, partial);
+        return fmt::format("{} {} {} {} {} {}", r.content_digest, r.cells, r.baked, r.all_visible,
+                           r.unfinished, r.bytes);
+      },
+      [&](const ChildDeath& death) { explain_death(file, death); });
+  MergeResult result;
+  std::istringstream(text) >> result.content_digest >> result.cells >> result.baked >> result.all_visible >>
+      result.unfinished >> result.bytes;
+  result.elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace veduta
