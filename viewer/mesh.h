@@ -1,0 +1,27 @@
+// The vertices as the GPU wants them: one buffer, in which a vertex knows what it is part of.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace veduta {
+
+/// A vertex shared by triangles of several materials or objects becomes several.
+struct MeshVertex {
+  glm::vec3 position_m{0};
+  uint8_t material = 0;    ///< Material
+  uint8_t tint = 0;        ///< an even spread over the objects: neighbours differ in shade
+  uint16_t height_cm = 0;  ///< above the foot of the building; far up for everything else
+};
+static_assert(sizeof(MeshVertex) == 16);
+
+struct Mesh {
+  std::vector<MeshVertex> vertices;
+  std::vector<glm::uvec3> corners;  ///< [T] the triangles of the scene, as indices into `vertices`
+};
+Mesh make_mesh(const Scene& scene);
+
+}  // namespace veduta

@@ -1,0 +1,5 @@
+#include "viewer/view_cli.h"
+
+int main(int argc, char** argv) {
+  return veduta::view_main(argc, argv);
+}
