@@ -1,0 +1,69 @@
+#include "pvs/cell_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace veduta {
+namespace {
+
+/// The obvious answer.
+int64_t scan(const std::vector<Box>& cells, const glm::vec3& point) {
+  for (size_t c = 0; c < cells.size(); ++c)
+    if (cells[c].contains(point)) return static_cast<int64_t>(c);
+  return -1;
+}
+
+void expect_same(const std::vector<Box>& cells, uint32_t seed, float range_m) {
+  const CellGrid grid(cells);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> place(-range_m, range_m);
+  for (int i = 0; i < 20000; ++i) {
+    const glm::vec3 point{place(random), place(random), place(random) * 0.1f};
+    ASSERT_EQ(grid.find(cells, point), scan(cells, point)) << point.x << ' ' << point.y << ' ' << point.z;
+  }
+  // Corners lie on the faces that neighbours share.
+  for (const Box& cell : cells)
+    for (const glm::vec3& point : {cell.lower, cell.upper, cell.center()})
+      ASSERT_EQ(grid.find(cells, point), scan(cells, point)) << point.x << ' ' << point.y << ' ' << point.z;
+}
+
+TEST(CellGrid, AgreesWithAScanOfEqualCells) {
+  std::vector<Box> cells;
+  for (int y = -10; y < 10; ++y)
+    for (int x = -10; x < 10; ++x)
+      if ((x + 3 * y) % 4 != 0)
+        cells.push_back(
+            {{10.0f * static_cast<float>(x), 10.0f * static_cast<float>(y), 0.1f * static_cast<float>(x)},
+             {10.0f * static_cast<float>(x + 1), 10.0f * static_cast<float>(y + 1),
+              0.1f * static_cast<float>(x) + 1}});
+  expect_same(cells, 1, 120);
+}
+
+TEST(CellGrid, AgreesWithAScanOfOverlappingCellsOfManySizes) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> place(-100, 100);
+  std::vector<Box> cells;
+  for (int i = 0; i < 300; ++i) {
+    const glm::vec3 lower{place(random), place(random), place(random) * 0.1f};
+    const float edge = std::exp2(std::uniform_real_distribution<float>(-6, 6)(random));
+    cells.push_back({lower, lower + edge});
+  }
+  cells.push_back({{-100000, -100000, -100}, {100000, 100000, 100}});  // a giant among dwarfs
+  expect_same(cells, 3, 150);
+}
+
+TEST(CellGrid, FlatCellsAndNoCells) {
+  EXPECT_EQ(CellGrid().find({}, {0, 0, 0}), -1);
+  const std::vector<Box> cells{{{0, 0, 1}, {10, 10, 1}}, {{10, 0, 1}, {20, 10, 1}}};
+  const CellGrid grid(cells);
+  EXPECT_EQ(grid.find(cells, {5, 5, 1}), 0);
+  EXPECT_EQ(grid.find(cells, {10, 5, 1}), 0);
+  EXPECT_EQ(grid.find(cells, {15, 5, 1}), 1);
+  EXPECT_EQ(grid.find(cells, {15, 5, 1.001f}), -1);
+  EXPECT_EQ(grid.find(cells, {NAN, 5, 1}), -1);
+}
+
+}  // namespace
+}  // namespace veduta

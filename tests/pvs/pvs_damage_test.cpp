@@ -1,0 +1,99 @@
+// A damaged file is an error message or reads as what was written: never a crash, never silently something
+// else.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "pvs/pvs_file.h"
+#include "scene/error.h"
+#include "tests/pvs/small_city.h"
+
+namespace veduta {
+namespace {
+
+using test::TemporaryDirectory;
+
+/// Reads a file of bytes. \return did it read? What it reads has to be what was written.
+bool reads_as(const std::filesystem::path& file, const std::string& bytes, const PvsFile& written) {
+  test::write_bytes(file, bytes);
+  try {
+    const PvsFile got = read_pvs(file);
+    EXPECT_EQ(got.content_digest, written.content_digest);
+    EXPECT_EQ(got.entries, written.entries);
+    EXPECT_EQ(got.row_begin, written.row_begin);
+    EXPECT_EQ(got.cell_row, written.cell_row);
+    EXPECT_EQ(got.bake_us, written.bake_us);
+    EXPECT_EQ(got.cell_status, written.cell_status);
+    EXPECT_EQ(got.city.cells, written.city.cells);
+    EXPECT_EQ(got.city.scene.vertices, written.city.scene.vertices);
+    EXPECT_EQ(got.city.scene.triangles, written.city.scene.triangles);
+    EXPECT_EQ(got.city.scene.origin, written.city.scene.origin);
+    EXPECT_EQ(got.city.scene.crs, written.city.scene.crs);
+    EXPECT_EQ(got.city.navigation.free.states, written.city.navigation.free.states);
+    EXPECT_EQ(got.header.config, written.header.config);
+    EXPECT_EQ(got.header.renderer, written.header.renderer);
+    EXPECT_EQ(got.header.fingerprint, written.header.fingerprint);
+    EXPECT_EQ(got.header.complete, written.header.complete);
+    EXPECT_EQ(got.header.conservative, written.header.conservative);
+    return true;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::bad_input) << error.what();
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    return false;
+  }
+}
+
+struct Written {
+  TemporaryDirectory directory;
+  std::string bytes;
+  PvsFile content;
+  Written() {
+    write_pvs(directory / "a.h5", test::small_city(), test::small_header(), test::small_row);
+    bytes = test::read_bytes(directory / "a.h5");
+    content = read_pvs(directory / "a.h5");
+  }
+};
+
+TEST(PvsDamage, BitFlips) {
+  const Written written;
+  std::mt19937 random(3);
+  int refused = 0;
+  for (int i = 0; i < 300 && !HasFailure(); ++i) {
+    const size_t bit = std::uniform_int_distribution<size_t>(0, 8 * written.bytes.size() - 1)(random);
+    SCOPED_TRACE("bit " + std::to_string(bit));
+    std::string bytes = written.bytes;
+    bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ (1 << (bit % 8)));
+    refused += !reads_as(written.directory / "flipped.h5", bytes, written.content);
+  }
+  RecordProperty("refused", refused);
+  EXPECT_GT(refused, 100);
+}
+
+TEST(PvsDamage, RunsOfRubbish) {
+  const Written written;
+  std::mt19937 random(4);
+  int refused = 0;
+  for (int i = 0; i < 100 && !HasFailure(); ++i) {
+    const size_t length = std::uniform_int_distribution<size_t>(2, 64)(random);
+    const size_t first = std::uniform_int_distribution<size_t>(0, written.bytes.size() - length)(random);
+    SCOPED_TRACE("byte " + std::to_string(first));
+    std::string bytes = written.bytes;
+    for (size_t k = first; k < first + length; ++k) bytes[k] = static_cast<char>(random());
+    refused += !reads_as(written.directory / "rubbish.h5", bytes, written.content);
+  }
+  EXPECT_GT(refused, 30);
+}
+
+TEST(PvsDamage, CutAnywhere) {
+  const Written written;
+  for (size_t i = 0; i < 60; ++i) {
+    const size_t size = written.bytes.size() * i / 60;
+    EXPECT_FALSE(reads_as(written.directory / "cut.h5", written.bytes.substr(0, size), written.content))
+        << size;
+  }
+  EXPECT_FALSE(reads_as(written.directory / "cut.h5", written.bytes.substr(0, written.bytes.size() - 1),
+                        written.content));
+}
+
+}  // namespace
+}  // namespace veduta

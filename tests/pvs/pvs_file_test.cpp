@@ -1,0 +1,325 @@
+#include "pvs/pvs_file.h"
+
+#include <gtest/gtest.h>
+
+#include "pvs/digest.h"
+#include "pvs/hdf5_handle.h"
+#include "scene/error.h"
+#include "tests/pvs/small_city.h"
+
+namespace veduta {
+namespace {
+
+using test::small_city;
+using test::small_header;
+using test::small_row;
+using test::TemporaryDirectory;
+
+std::string write_small(const std::filesystem::path& file) {
+  return write_pvs(file, small_city(), small_header(), small_row);
+}
+
+ExitStatus status_of(const std::function<void()>& action, std::string* message = nullptr) {
+  try {
+    action();
+  } catch (const Error& error) {
+    if (message) *message = error.what();
+    return error.status();
+  }
+  return ExitStatus::done;
+}
+
+void expect_same(const City& a, const City& b) {
+  EXPECT_EQ(a.scene.origin, b.scene.origin);
+  EXPECT_EQ(a.scene.crs, b.scene.crs);
+  EXPECT_EQ(a.scene.vertices, b.scene.vertices);
+  EXPECT_EQ(a.scene.triangles, b.scene.triangles);
+  EXPECT_EQ(a.scene.material, b.scene.material);
+  EXPECT_EQ(a.slices, b.slices);
+  EXPECT_EQ(a.triangle_slices, b.triangle_slices);
+  EXPECT_EQ(a.cells, b.cells);
+  ASSERT_EQ(a.scene.objects.size(), b.scene.objects.size());
+  for (size_t i = 0; i < a.scene.objects.size(); ++i) {
+    EXPECT_EQ(a.scene.objects[i].name, b.scene.objects[i].name);
+    EXPECT_EQ(a.scene.objects[i].kind, b.scene.objects[i].kind);
+    EXPECT_EQ(a.scene.objects[i].triangle_begin, b.scene.objects[i].triangle_begin);
+    EXPECT_EQ(a.scene.objects[i].triangle_end, b.scene.objects[i].triangle_end);
+  }
+  ASSERT_EQ(a.scene.parts.size(), b.scene.parts.size());
+  for (size_t i = 0; i < a.scene.parts.size(); ++i) {
+    EXPECT_EQ(a.scene.parts[i].name, b.scene.parts[i].name);
+    EXPECT_EQ(a.scene.parts[i].object, b.scene.parts[i].object);
+    EXPECT_EQ(a.scene.parts[i].triangle_begin, b.scene.parts[i].triangle_begin);
+    EXPECT_EQ(a.scene.parts[i].triangle_end, b.scene.parts[i].triangle_end);
+  }
+  const FreeOctree &f = a.navigation.free, &g = b.navigation.free;
+  EXPECT_EQ(f.lower, g.lower);
+  EXPECT_EQ(f.leaf_size_m, g.leaf_size_m);
+  EXPECT_EQ(f.depth, g.depth);
+  EXPECT_EQ(f.states, g.states);
+  EXPECT_EQ(f.first_child, g.first_child);
+  const HeightField &h = a.navigation.ground, &k = b.navigation.ground;
+  EXPECT_EQ(h.lower_x, k.lower_x);
+  EXPECT_EQ(h.lower_y, k.lower_y);
+  EXPECT_EQ(h.step_m, k.step_m);
+  EXPECT_EQ(h.nx, k.nx);
+  EXPECT_EQ(h.ny, k.ny);
+  ASSERT_EQ(h.height.size(), k.height.size());
+  EXPECT_EQ(hash128(h.height.data(), 4 * h.height.size()),
+            hash128(k.height.data(), 4 * k.height.size()));  // NaN too
+}
+
+TEST(PvsFile, GivesBackWhatWasWritten) {
+  TemporaryDirectory directory;
+  const std::string digest = write_small(directory / "a.h5");
+  const PvsFile file = read_pvs(directory / "a.h5");
+  expect_same(small_city(), file.city);
+  EXPECT_EQ(file.content_digest, digest);
+  EXPECT_EQ(digest.size(), 32u);
+  EXPECT_EQ(file.header.fingerprint, small_header().fingerprint);
+  EXPECT_EQ(file.header.config, small_header().config);
+  EXPECT_EQ(file.header.renderer, "llvmpipe");
+  EXPECT_TRUE(file.header.complete);
+  EXPECT_TRUE(file.header.conservative);
+  for (uint32_t c = 0; c < 7; ++c) {
+    const auto row = file.row(c);
+    EXPECT_EQ(PvsRow(row.begin(), row.end()), small_row(c).row) << c;
+    EXPECT_EQ(file.bake_us[c], 1000 + c);
+    EXPECT_EQ(file.find_cell(file.city.cells[c].center()), c);
+  }
+  EXPECT_EQ(file.find_cell({-1, -5, 1.5f}), -1);
+}
+
+TEST(PvsFile, StoresEqualRowsOnce) {
+  TemporaryDirectory directory;
+  write_small(directory / "a.h5");
+  const PvsFile file = read_pvs(directory / "a.h5");
+  EXPECT_EQ(file.row_begin, (std::vector<uint64_t>{0, 0, 1, 3}));
+  EXPECT_EQ(file.cell_row, (std::vector<uint32_t>{0, 1, 2, 0, 1, 2, 0}));
+}
+
+TEST(PvsFile, HoldsACityOfNothing) {
+  TemporaryDirectory directory;
+  write_pvs(directory / "a.h5", City{}, {}, small_row);
+  const PvsFile file = read_pvs(directory / "a.h5");
+  expect_same(City{}, file.city);
+  EXPECT_EQ(file.row_begin, std::vector<uint64_t>{0});
+  EXPECT_EQ(file.find_cell({0, 0, 0}), -1);
+  EXPECT_NE(describe(file, directory / "a.h5").find("0 objects"), std::string::npos);
+}
+
+TEST(PvsFile, SpansManyChunks) {
+  TemporaryDirectory directory;
+  const City city = small_city(30000, 70000);
+  const auto source = [](uint32_t c) {
+    BakedCell cell{CellStatus::baked, c, {}};
+    for (uint32_t i = c % 97; i < 30000; i += 1000 + c % 1013)
+      cell.row.push_back({i, {0, 0, static_cast<int8_t>(1 + i % 2)}});
+    return cell;
+  };
+  write_pvs(directory / "a.h5", city, small_header(), source);
+  const PvsFile file = read_pvs(directory / "a.h5");
+  expect_same(city, file.city);
+  EXPECT_GT(file.entries.size(), 200000u);
+  for (uint32_t c = 0; c < 70000; ++c) {
+    const auto row = file.row(c);
+    ASSERT_EQ(PvsRow(row.begin(), row.end()), source(c).row) << c;
+  }
+}
+
+TEST(PvsFile, DigestIsOfTheContentAlone) {
+  TemporaryDirectory directory;
+  const std::string digest = write_small(directory / "a.h5");
+  PvsHeader other = small_header();
+  other.renderer = "another GPU";
+  other.config = "# by another road\n";
+  other.fingerprint = "ff";
+  const auto slower = [](uint32_t c) {
+    BakedCell cell = small_row(c);
+    cell.bake_us *= 2;
+    return cell;
+  };
+  EXPECT_EQ(write_pvs(directory / "b.h5", small_city(), other, slower), digest);
+  City moved = small_city();
+  moved.scene.origin[2] += 1;
+  EXPECT_NE(write_pvs(directory / "b.h5", moved, small_header(), small_row), digest);
+  const auto less = [](uint32_t c) {
+    BakedCell cell = small_row(c);
+    if (c == 5) cell.row.pop_back();
+    return cell;
+  };
+  EXPECT_NE(write_pvs(directory / "b.h5", small_city(), small_header(), less), digest);
+}
+
+TEST(PvsFile, SameInputGivesTheSameBytes) {
+  TemporaryDirectory directory;
+  write_small(directory / "a.h5");
+  write_small(directory / "b.h5");
+  EXPECT_EQ(test::read_bytes(directory / "a.h5"), test::read_bytes(directory / "b.h5"));
+}
+
+TEST(PvsFile, IsNotCompleteWithCellsThatWereNotBaked) {
+  TemporaryDirectory directory;
+  write_pvs(directory / "a.h5", small_city(), small_header(), [](uint32_t c) {
+    BakedCell cell = small_row(c);
+    if (c == 3) cell.status = CellStatus::all_visible;
+    return cell;
+  });
+  const PvsFile file = read_pvs(directory / "a.h5");
+  EXPECT_FALSE(file.header.complete);
+  EXPECT_EQ(file.cell_status[3], CellStatus::all_visible);
+  EXPECT_NE(describe(file, directory / "a.h5").find("6 baked, 0 coarse, 1 all visible"), std::string::npos);
+  EXPECT_NE(describe_json(file, directory / "a.h5").find("\"cells_all_visible\": 1"), std::string::npos);
+}
+
+TEST(PvsFile, PreparedCityRoundTripsAndIsNoResult) {
+  TemporaryDirectory directory;
+  write_city(directory / "city.h5", small_city());
+  expect_same(small_city(), read_city(directory / "city.h5"));
+  std::string message;
+  EXPECT_EQ(status_of([&] { read_pvs(directory / "city.h5"); }, &message), ExitStatus::bad_input);
+  EXPECT_NE(message.find("veduta-city"), std::string::npos) << message;
+}
+
+TEST(PvsFile, WriterRefusesRowsThatItsReaderWould) {
+  TemporaryDirectory directory;
+  const std::vector<PvsRow> wrong{{{6, completely_visible}},                           // no such object
+                                  {{2, completely_visible}, {1, completely_visible}},  // not ascending
+                                  {{1, completely_visible}, {1, completely_visible}},
+                                  {{0, {0, 0, 0}}},
+                                  {{0, {0, 0, 3}}},  // two z-slices
+                                  {{0, {0, 0, -1}}},
+                                  {{0, {5, 0, 0}}},   // four x-slices
+                                  {{0, {-4, 0, 0}}},  // from the fifth on
+                                  {{0, {1, 1, 0}}}};
+  for (size_t i = 0; i < wrong.size(); ++i) {
+    const auto source = [&](uint32_t c) {
+      return BakedCell{CellStatus::baked, 0, c == 4 ? wrong[i] : PvsRow{}};
+    };
+    EXPECT_EQ(status_of([&] { write_pvs(directory / "a.h5", small_city(), {}, source); }), ExitStatus::defect)
+        << i;
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
+}
+
+TEST(PvsFile, WriterRefusesCitiesThatItsReaderWould) {
+  TemporaryDirectory directory;
+  const std::vector<std::function<void(City&)>> spoil{
+      [](City& c) { c.scene.vertices[3].y = NAN; },
+      [](City& c) { c.scene.triangles[1].z = 15; },
+      [](City& c) { c.scene.material.pop_back(); },
+      [](City& c) { c.scene.objects[2].triangle_begin = 3; },
+      [](City& c) { c.scene.objects.back().triangle_end = 99; },
+      [](City& c) { c.slices[1].y = 0; },
+      [](City& c) { c.slices[1].x = 128; },
+      [](City& c) { c.triangle_slices[1].x_last = 5; },
+      [](City& c) { c.triangle_slices[1] = {2, 1, 1, 1, 1, 1}; },
+      [](City& c) { c.scene.parts[0].object = 1; },
+      [](City& c) { std::swap(c.cells[1].lower, c.cells[1].upper); },
+      [](City& c) { c.cells[1].upper.x = INFINITY; },
+      [](City& c) { c.navigation.free.first_child[0] = 0; },
+      [](City& c) { c.navigation.free.first_child[0] = 2; },
+      [](City& c) { c.navigation.free.depth = 1; },
+      [](City& c) { c.navigation.free.states[1] = 3; },
+      [](City& c) { c.navigation.ground.nx = 4; },
+      [](City& c) { c.scene.objects[0].name = std::string("a\0b", 3); },
+  };
+  for (size_t i = 0; i < spoil.size(); ++i) {
+    City city = small_city();
+    spoil[i](city);
+    EXPECT_EQ(status_of([&] { write_pvs(directory / "a.h5", city, {}, small_row); }), ExitStatus::defect)
+        << i;
+  }
+}
+
+TEST(PvsFile, FailureLeavesTheOldFileAndNothingElse) {
+  TemporaryDirectory directory;
+  write_small(directory / "a.h5");
+  const std::string before = test::read_bytes(directory / "a.h5");
+  EXPECT_THROW(write_pvs(directory / "a.h5", small_city(), {},
+                         [](uint32_t c) -> BakedCell {
+                           if (c == 5) throw std::runtime_error("stop");
+                           return small_row(c);
+                         }),
+               std::runtime_error);
+  EXPECT_EQ(test::read_bytes(directory / "a.h5"), before);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory.path()), {}), 1);
+  EXPECT_EQ(status_of([&] { write_small(directory / "a.h5" / "b.h5"); }), ExitStatus::input_output);
+  EXPECT_EQ(status_of([&] { write_small(directory / "none" / "b.h5"); }), ExitStatus::input_output);
+  EXPECT_EQ(status_of([&] { write_small(directory.path()); }), ExitStatus::input_output);
+}
+
+TEST(PvsFile, SaysWhatIsWrongWithAFile) {
+  TemporaryDirectory directory;
+  std::string message;
+  EXPECT_EQ(status_of([&] { read_pvs(directory / "none.h5"); }, &message), ExitStatus::bad_input);
+  EXPECT_EQ(message, (directory / "none.h5").string() + ": no such file");
+  EXPECT_EQ(status_of([&] { read_pvs(directory.path()); }), ExitStatus::bad_input);
+  test::write_bytes(directory / "text.h5", "no HDF5 at all");
+  EXPECT_EQ(status_of([&] { read_pvs(directory / "text.h5"); }), ExitStatus::bad_input);
+}
+
+/// Opens a whole file and spoils it with HDF5's own means.
+std::string message_after(const std::function<void(hid_t)>& spoil) {
+  TemporaryDirectory directory;
+  write_small(directory / "a.h5");
+  const hid_t file = H5Fopen((directory / "a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  EXPECT_GE(file, 0);
+  spoil(file);
+  EXPECT_GE(H5Fclose(file), 0);
+  std::string message;
+  EXPECT_EQ(status_of([&] { read_pvs(directory / "a.h5"); }, &message), ExitStatus::bad_input) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos);
+  return message;
+}
+
+TEST(PvsFile, NamesTheVersion) {
+  const std::string message = message_after([](hid_t file) {
+    const hid_t attribute = H5Aopen(file, "version", H5P_DEFAULT);
+    const uint32_t version = 2;
+    H5Awrite(attribute, H5T_NATIVE_UINT32, &version);
+    H5Aclose(attribute);
+  });
+  EXPECT_NE(message.find("version 2"), std::string::npos) << message;
+}
+
+TEST(PvsFile, NamesWhatIsMissingOrElsewhere) {
+  EXPECT_NE(message_after([](hid_t file) {
+              H5Ldelete(file, "/cells/row", H5P_DEFAULT);
+            }).find("/cells/row: missing"),
+            std::string::npos);
+  EXPECT_NE(message_after([](hid_t file) {
+              H5Ldelete(file, "/navigation", H5P_DEFAULT);
+            }).find("/navigation: missing"),
+            std::string::npos);
+  EXPECT_NE(message_after([](hid_t file) {
+              H5Ldelete(file, "/pvs/begin", H5P_DEFAULT);
+              H5Lcreate_external("/etc/passwd", "/begin", file, "/pvs/begin", H5P_DEFAULT, H5P_DEFAULT);
+            }).find("/pvs/begin: a link"),
+            std::string::npos);
+  EXPECT_NE(message_after([](hid_t file) {
+              H5Ldelete(file, "/pvs/index", H5P_DEFAULT);
+              H5Lcreate_soft("/pvs/object", file, "/pvs/index", H5P_DEFAULT, H5P_DEFAULT);
+            }).find("/pvs/index: a link"),
+            std::string::npos);
+}
+
+TEST(PvsFile, NamesWhatChanged) {
+  const std::string value = message_after([](hid_t file) {
+    const hid_t dataset = H5Dopen2(file, "/cells/row", H5P_DEFAULT);
+    const uint32_t rows[7] = {0, 1, 2, 0, 1, 2, 1};
+    H5Dwrite(dataset, H5T_NATIVE_UINT32, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows);
+    H5Dclose(dataset);
+  });
+  EXPECT_NE(value.find("/cells/row: damaged: its digest"), std::string::npos) << value;
+  const std::string extent = message_after([](hid_t file) {
+    const hid_t dataset = H5Dopen2(file, "/pvs/object", H5P_DEFAULT);
+    const hsize_t rows = hsize_t{1} << 40;
+    H5Dset_extent(dataset, &rows);
+    H5Dclose(dataset);
+  });
+  EXPECT_NE(extent.find("/pvs/object: damaged: claims"), std::string::npos) << extent;
+}
+
+}  // namespace
+}  // namespace veduta
