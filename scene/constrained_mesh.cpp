@@ -4,6 +4,8 @@
 // constructions.
 #include "scene/constrained_mesh.h"
 
+// Crossings are few here (see worth_mending), so the hierarchy that CGAL advises is not worth its cost.
+#define CGAL_NO_CDT_2_WARNING
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Constrained_triangulation_face_base_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
