@@ -1,0 +1,222 @@
+#include "farm/bake.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "farm/coordinator.h"
+#include "farm/fingerprint.h"
+#include "farm/finish.h"
+#include "farm/lock.h"
+#include "farm/machine.h"
+#include "farm/shepherd.h"
+#include "farm/signals.h"
+#include "scene/error.h"
+#include "worker/settings.h"
+
+namespace veduta {
+namespace {
+
+RunPaths run_paths(const BakeOptions& options) {
+  return {options.out.empty() ? std::filesystem::path("out") / options.config.stem() : options.out};
+}
+
+bool for_shepherd(const Message& message) {
+  return std::visit(
+      [](const auto& each) { return std::remove_cvref_t<decltype(each)>::verb < ReadyMessage::verb; },
+      message);
+}
+
+/// The shepherd of this rank, from Start to Left; its errors become messages to the coordinator.
+class GuardedShepherd {
+ public:
+  GuardedShepherd(Transport& transport, const ShepherdOptions& options)
+      : transport_(transport), shepherd_(transport, options) {}
+  void handle(const Message& message) {
+    guard([&] { shepherd_.handle(message); });
+  }
+  void step(int wait_ms) {
+    guard([&] { shepherd_.step(wait_ms); });
+  }
+  void stop() {
+    guard([&] { shepherd_.stop(true); });
+  }
+
+ private:
+  template <typename Action>
+  void guard(const Action& action) {
+    FailedMessage failed;
+    try {
+      return action();
+    } catch (const Error& error) {
+      failed.status = static_cast<int32_t>(error.status()), failed.message = FixedText<1600>(error.what());
+    } catch (const std::exception& error) {
+      failed.status = static_cast<int32_t>(ExitStatus::defect),
+      failed.message = FixedText<1600>(error.what());
+    }
+    transport_.send(0, failed);
+    shepherd_.abandon();
+  }
+  Transport& transport_;
+  Shepherd shepherd_;
+};
+
+/// With MPI, messages must be polled for; alone, everything wakes poll().
+int wait_ms(const Transport& transport) {
+  return transport.size() > 1 ? 1 : 20;
+}
+
+/// A rank other than 0: does as it is told until Goodbye.
+void serve(Transport& transport, GuardedShepherd& shepherd) {
+  for (;;) {
+    while (const auto received = transport.receive()) {
+      if (std::holds_alternative<GoodbyeMessage>(received->message)) return;
+      shepherd.handle(received->message);
+    }
+    if (stop_requested()) shepherd.stop();
+    shepherd.step(wait_ms(transport));
+  }
+}
+
+/// The same, when this host cannot even begin: the coordinator hears why.
+void serve_guarded(const BakeOptions& options, Transport& transport) {
+  FailedMessage failed;
+  try {
+    const RankShare share = rank_share(transport, options.workers, options.gpu);
+    GuardedShepherd shepherd(transport, {run_paths(options), share.workers, share.threads_per_worker,
+                                         options.gpu, options.cell_timeout_s});
+    return serve(transport, shepherd);
+  } catch (const Error& error) {
+    failed.status = static_cast<int32_t>(error.status()), failed.message = FixedText<1600>(error.what());
+  }
+  transport.send(0, failed);
+  transport.send(0, LeftMessage{});
+  for (;;) {
+    if (const auto received = transport.receive();
+        received && std::holds_alternative<GoodbyeMessage>(received->message))
+      return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+}
+
+/// Rank 0's loop, until every shepherd has left. \return the error that ended the bake, if one did.
+std::optional<Error> coordinate(Transport& transport, Coordinator& coordinator, GuardedShepherd& shepherd) {
+  std::optional<Error> failure;
+  const auto guard = [&](const auto& action) {
+    try {
+      action();
+    } catch (const Error& error) {
+      if (!failure) failure = error;
+      coordinator.finish(false);
+    }
+  };
+  guard([&] { coordinator.start(); });
+  while (!coordinator.finished()) {
+    while (const auto received = transport.receive()) {
+      if (for_shepherd(received->message))
+        shepherd.handle(received->message);
+      else
+        guard([&] { coordinator.handle(received->from, received->message); });
+    }
+    guard([&] { coordinator.tick(stop_requested()); });
+    if (stop_at_once_requested()) _exit(static_cast<int>(ExitStatus::stopped_early));
+    shepherd.step(wait_ms(transport));
+  }
+  return failure;
+}
+
+/// Checks that the directory is this job's, or makes it so.
+void claim(const RunPaths& run, const Settings& settings, const Fingerprint& fingerprint) {
+  if (const auto stored = read_text_file(run.fingerprint()))
+    require_same_job(run.directory, *stored, fingerprint);
+  std::error_code ignored;
+  std::filesystem::remove(run.report(), ignored);  // it is there only when a bake is complete
+  write_file_atomically(run.fingerprint(), fingerprint.text());
+  write_file_atomically(run.settings(), to_toml(settings));
+}
+
+void print_plan(const BakeOptions& options, const Settings& settings, const RunPaths& run,
+                const Transport& transport) {
+  const Fingerprint fingerprint = make_fingerprint(settings);
+  std::string out = fmt::format("{}\nfingerprint {}\n", to_toml(settings), fingerprint.hash);
+  for (const auto& file : settings.scene.model)
+    out += fmt::format("model {}, {}\n", file, bytes_text(std::filesystem::file_size(file)));
+  const RankShare share = rank_share(transport, options.workers, options.gpu);
+  out += fmt::format("ranks {}, workers {} a rank, {} software threads a worker\n", transport.size(),
+                     share.workers, share.threads_per_worker);
+  for (const auto& device : probe_devices()) out += "device " + device + "\n";
+  out += fmt::format("run directory {}, {} free\n", std::filesystem::absolute(run.directory).string(),
+                     bytes_text(free_bytes(run.directory)));
+  std::cout << out;
+}
+
+/// Everything that rank 0 does. \return the exit status. \throw Error.
+int bake_as_first(const BakeOptions& options, Transport& transport) {
+  const Settings settings = load_settings(options.config);
+  const RunPaths run = run_paths(options);
+  if (options.dry_run) return print_plan(options, settings, run, transport), 0;
+  const auto began = std::chrono::steady_clock::now();
+  const Fingerprint fingerprint = make_fingerprint(settings);
+  worker_program();  // a missing worker is told before anything is written
+  make_run_directory(run);
+  const RunLock lock(run.lock());
+  if (options.fresh) remove_run(run), make_run_directory(run);
+  claim(run, settings, fingerprint);
+
+  RunLog log(run.log(), options.verbosity);
+  Progress progress(options.verbosity == Verbosity::quiet);
+  const RankShare share = rank_share(transport, options.workers, options.gpu);
+  if (share.workers > share.cores && share.cores < share.machine_cores)
+    log.warning("bound", nlohmann::json{{"cores", share.cores}},
+                fmt::format("{} workers share the {} of {} cores that this rank is bound to; mpirun "
+                            "--bind-to none frees them",
+                            share.workers, share.cores, share.machine_cores));
+  Coordinator coordinator(transport, {run, fingerprint.hash, share.workers}, log, progress);
+  GuardedShepherd shepherd(
+      transport, {run, share.workers, share.threads_per_worker, options.gpu, options.cell_timeout_s});
+  const auto failure = coordinate(transport, coordinator, shepherd);
+  progress.clear();
+  BakeEnd end{run,   fingerprint.hash,    coordinator.tally(), transport.size(), share.workers,
+              began, options.command_line};
+  if (failure) {
+    log.info("failed",
+             nlohmann::json{{"status", static_cast<int>(failure->status())}, {"message", failure->what()}});
+    throw *failure;
+  }
+  return finish_bake(end, options.merge, log);
+}
+
+int bake_guarded(const BakeOptions& options, Transport& transport) {
+  try {
+    return bake_as_first(options, transport);
+  } catch (const Error& error) {
+    say(std::string("veduta: ") + error.what());
+    return static_cast<int>(error.status());
+  } catch (const std::exception& error) {
+    say(std::string("veduta: ") + error.what() + "; this is a defect of veduta");
+    return static_cast<int>(ExitStatus::defect);
+  }
+}
+
+}  // namespace
+
+int run_bake(const BakeOptions& options) {
+  install_stop_signals();
+  const auto transport = make_transport();
+  int status = 0;
+  if (transport->rank() == 0) {
+    status = bake_guarded(options, *transport);
+    for (int rank = 1; rank < transport->size(); ++rank) transport->send(rank, GoodbyeMessage{});
+  } else {
+    serve_guarded(options, *transport);
+  }
+  transport->leave(status);
+  return status;
+}
+
+}  // namespace veduta

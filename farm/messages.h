@@ -1,0 +1,116 @@
+// What ranks say to each other: small control messages of fixed size. Results never travel by MPI: a large
+// message from a dying rank blocks its receiver for ever (OpenMPI 4.1). One struct a verb; version and length
+// are checked before the copy.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace veduta {
+
+/// Text of bounded length; longer text is cut at the end.
+template <size_t N>
+struct FixedText {
+  std::array<char, N> characters{};
+
+  FixedText() = default;
+  explicit FixedText(const std::string& text) { text.copy(characters.data(), N - 1); }
+  std::string text() const {
+    size_t size = 0;
+    while (size < N && characters[size] != '\0') ++size;
+    return {characters.data(), size};
+  }
+};
+
+// --- coordinator to shepherd
+// -----------------------------------------------------------------------------------------
+struct StartMessage {  ///< begin: start the children; they may be told to prepare or to open
+  static constexpr uint32_t verb = 1;
+  uint32_t attempt = 0;
+  FixedText<64> fingerprint;
+};
+struct PrepareMessage {  ///< to the shepherd beside the coordinator: slot 0 makes prepared/
+  static constexpr uint32_t verb = 2;
+};
+struct OpenMessage {  ///< prepared/ is there: every child opens it
+  static constexpr uint32_t verb = 3;
+};
+struct GrantMessage {
+  static constexpr uint32_t verb = 4;
+  uint64_t lease = 0;
+  uint32_t slot = 0, begin = 0, count = 0;
+};
+struct FinishMessage {  ///< stop; `drain` lets children finish the cell in hand. Answered by LeftMessage.
+  static constexpr uint32_t verb = 5;
+  uint32_t drain = 0;
+};
+struct GoodbyeMessage {  ///< everything is done: leave the MPI job together
+  static constexpr uint32_t verb = 6;
+};
+
+// --- shepherd to coordinator
+// -----------------------------------------------------------------------------------------
+struct ReadyMessage {  ///< the shepherd has started `workers` children
+  static constexpr uint32_t verb = 16;
+  uint32_t workers = 0;
+};
+struct StageMessage {  ///< the preparation goes on
+  static constexpr uint32_t verb = 17;
+  uint64_t done = 0, total = 0;
+  FixedText<64> stage;
+};
+struct PreparedMessage {
+  static constexpr uint32_t verb = 18;
+  uint64_t cells = 0, objects = 0, triangles = 0;
+};
+struct IdleMessage {  ///< the child has opened the city and waits for a lease
+  static constexpr uint32_t verb = 19;
+  uint32_t slot = 0;
+  FixedText<200> renderer;
+};
+struct CellMessage {  ///< a cell's record is in the shard
+  static constexpr uint32_t verb = 20;
+  uint64_t lease = 0;
+  uint32_t cell = 0, bake_us = 0;
+};
+struct LeaseDoneMessage {
+  static constexpr uint32_t verb = 21;
+  uint64_t lease = 0;
+  uint32_t slot = 0;
+};
+struct LostMessage {  ///< a child died; `lease` is 0 when it held none. `given_up`: the slot stays empty
+  static constexpr uint32_t verb = 22;
+  uint64_t lease = 0;
+  uint32_t slot = 0, given_up = 0;
+  FixedText<400> reason;
+};
+struct FailedMessage {  ///< an error that trying again does not mend: the bake stops with it
+  static constexpr uint32_t verb = 23;
+  int32_t status = 0;
+  FixedText<1600> message;
+};
+struct NoteMessage {  ///< a line for the log
+  static constexpr uint32_t verb = 24;
+  FixedText<400> text;
+};
+struct LeftMessage {  ///< children gone, shards synced and closed
+  static constexpr uint32_t verb = 25;
+};
+
+using Message =
+    std::variant<StartMessage, PrepareMessage, OpenMessage, GrantMessage, FinishMessage, GoodbyeMessage,
+                 ReadyMessage, StageMessage, PreparedMessage, IdleMessage, CellMessage, LeaseDoneMessage,
+                 LostMessage, FailedMessage, NoteMessage, LeftMessage>;
+
+/// Below the size that OpenMPI sends without waiting for the receiver.
+inline constexpr size_t message_limit = 2048;
+
+std::vector<std::byte> encode(const Message& message);
+/// \throw Error(defect) for bytes that are not one message of this version.
+Message decode_message(const std::byte* data, size_t size);
+
+}  // namespace veduta

@@ -1,0 +1,138 @@
+#include <mpi.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <deque>
+#include <list>
+#include <thread>
+
+#include "farm/transport.h"
+#include "scene/error.h"
+
+namespace veduta {
+namespace {
+
+constexpr int tag = 1;
+
+/// One rank: what it sends comes back to itself.
+class LocalTransport final : public Transport {
+ public:
+  int rank() const override { return 0; }
+  int size() const override { return 1; }
+  int local_rank() const override { return 0; }
+  int local_size() const override { return 1; }
+  void send(int, const Message& message) override { queue_.push_back(message); }
+  std::optional<Received> receive() override {
+    if (queue_.empty()) return std::nullopt;
+    Received received{0, queue_.front()};
+    queue_.pop_front();
+    return received;
+  }
+  void leave(int) override {}
+
+ private:
+  std::deque<Message> queue_;
+};
+
+class MpiTransport final : public Transport {
+ public:
+  MpiTransport() {
+    MPI_Init(nullptr, nullptr);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &size_);
+    MPI_Comm host = MPI_COMM_NULL;
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &host);
+    MPI_Comm_rank(host, &local_rank_);
+    MPI_Comm_size(host, &local_size_);
+    MPI_Comm_free(&host);
+  }
+  int rank() const override { return rank_; }
+  int size() const override { return size_; }
+  int local_rank() const override { return local_rank_; }
+  int local_size() const override { return local_size_; }
+
+  void send(int to, const Message& message) override {
+    if (to == rank_) {
+      own_.push_back(message);
+      return;
+    }
+    // A stopped receiver must not stop the sender: the bytes are kept until MPI has taken them.
+    Outgoing& out = outgoing_.emplace_back();
+    out.bytes = encode(message);
+    MPI_Isend(out.bytes.data(), static_cast<int>(out.bytes.size()), MPI_BYTE, to, tag, MPI_COMM_WORLD,
+              &out.request);
+  }
+
+  std::optional<Received> receive() override {
+    forget_sent();
+    if (!own_.empty()) {
+      Received received{rank_, own_.front()};
+      own_.pop_front();
+      return received;
+    }
+    int there = 0, size = 0;
+    MPI_Status status;
+    MPI_Iprobe(MPI_ANY_SOURCE, tag, MPI_COMM_WORLD, &there, &status);
+    if (!there) return std::nullopt;
+    MPI_Get_count(&status, MPI_BYTE, &size);
+    if (size < 0 || static_cast<size_t>(size) > message_limit)
+      throw Error(ExitStatus::defect, "a message between ranks is too long");
+    std::byte bytes[message_limit];
+    MPI_Recv(bytes, size, MPI_BYTE, status.MPI_SOURCE, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    return Received{status.MPI_SOURCE, decode_message(bytes, static_cast<size_t>(size))};
+  }
+
+  void leave(int status) override {
+    // MPI_Finalize waits for every rank, and for ever when one is stopped; nobody should wait for that.
+    std::thread([status] {
+      std::this_thread::sleep_for(std::chrono::seconds(10));
+      _exit(status);
+    }).detach();
+    while (!outgoing_.empty()) {
+      forget_sent();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    MPI_Finalize();
+  }
+
+ private:
+  struct Outgoing {
+    std::vector<std::byte> bytes;
+    MPI_Request request = MPI_REQUEST_NULL;
+  };
+  void forget_sent() {
+    for (auto each = outgoing_.begin(); each != outgoing_.end();) {
+      int sent = 0;
+      MPI_Test(&each->request, &sent, MPI_STATUS_IGNORE);
+      each = sent ? outgoing_.erase(each) : std::next(each);
+    }
+  }
+  int rank_ = 0, size_ = 1, local_rank_ = 0, local_size_ = 1;
+  std::deque<Message> own_;
+  std::list<Outgoing> outgoing_;
+};
+
+}  // namespace
+
+std::optional<int> launched_rank() {
+  for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"})
+    if (const char* value = std::getenv(name)) return std::atoi(value);
+  return std::nullopt;
+}
+
+std::unique_ptr<Transport> make_transport() {
+  if (launched_rank()) return std::make_unique<MpiTransport>();
+  return std::make_unique<LocalTransport>();
+}
+
+std::string mpi_version() {
+  char text[MPI_MAX_LIBRARY_VERSION_STRING];
+  int size = 0;
+  MPI_Get_library_version(text, &size);
+  const std::string version(text, static_cast<size_t>(size));
+  return version.substr(0, version.find_first_of(",\n"));
+}
+
+}  // namespace veduta

@@ -1,0 +1,282 @@
+#include "farm/shepherd.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "farm/run_directory.h"
+#include "scene/error.h"
+
+namespace veduta {
+namespace {
+
+using nlohmann::json;
+
+constexpr int deaths_allowed_before_open = 3;
+// mpirun sends SIGKILL two seconds after SIGTERM: what is not finished by then is lost anyway.
+constexpr auto stop_patience = std::chrono::milliseconds(1200);
+constexpr auto sync_interval = std::chrono::seconds(1);
+constexpr uint64_t sync_bytes = 16u << 20;
+constexpr double prepare_timeout_s = 3600, open_timeout_s = 600;
+
+json parsed(const Frame& frame) {
+  json value = json::parse(frame.payload.begin(), frame.payload.end(), nullptr, false);
+  if (!value.is_object())
+    throw Error(ExitStatus::defect, "worker stream: a frame does not hold a JSON object");
+  return value;
+}
+
+}  // namespace
+
+Shepherd::Shepherd(Transport& transport, ShepherdOptions options)
+    : transport_(transport), options_(std::move(options)), slots_(options_.workers) {}
+
+void Shepherd::handle(const Message& message) {
+  if (stop_until_) return;  // whatever was on its way when the bake stopped
+  if (const auto* start = std::get_if<StartMessage>(&message)) {
+    job_ = *start;
+    for (uint32_t number = 0; number < slots_.size(); ++number) spawn(number);
+    ReadyMessage ready;
+    ready.workers = options_.workers;
+    tell(ready);
+  } else if (std::holds_alternative<PrepareMessage>(message)) {
+    prepare_wanted_ = true;
+    next_task(slots_.at(0));
+  } else if (std::holds_alternative<OpenMessage>(message)) {
+    city_ready_ = true, prepare_wanted_ = false;
+    for (Slot& slot : slots_) next_task(slot);
+  } else if (const auto* grant = std::get_if<GrantMessage>(&message)) {
+    Slot& slot = slots_.at(grant->slot);
+    if (slot.task != Task::idle) return;  // it died meanwhile: the coordinator hears of that
+    std::vector<uint32_t> cells(grant->count);
+    for (uint32_t i = 0; i < grant->count; ++i) cells[i] = grant->begin + i;
+    slot.lease = grant->lease;
+    set(slot, Task::baking);
+    slot.child->send(Verb::bake, json{{"cells", cells}}.dump());
+  } else if (const auto* finish = std::get_if<FinishMessage>(&message)) {
+    stop(finish->drain != 0);
+  }
+}
+
+void Shepherd::spawn(uint32_t number) {
+  Slot& slot = slots_[number];
+  const uint32_t device_turn = static_cast<uint32_t>(transport_.local_rank()) * options_.workers + number;
+  ChildCommand command;
+  command.arguments = {worker_program().string(), "--gpu", options_.gpu, "--local-rank",
+                       std::to_string(device_turn)};
+  command.log = worker_log(options_.run, job_.attempt, transport_.rank(), number);
+  if (!std::getenv("LP_NUM_THREADS"))
+    command.environment.emplace_back("LP_NUM_THREADS", std::to_string(options_.threads_per_worker));
+  slot.child = std::make_unique<Child>(command);
+  slot.lease = 0, slot.last_words.clear();
+  set(slot, Task::starting);
+}
+
+/// What a child that said hello and has nothing to do should do.
+void Shepherd::next_task(Slot& slot) {
+  if (!slot.child || slot.task != Task::waiting) return;
+  const std::string directory =
+      json{{"directory", std::filesystem::absolute(options_.run.directory).string()}}.dump();
+  if (city_ready_) {
+    set(slot, Task::opening);
+    slot.child->send(Verb::open, directory);
+  } else if (prepare_wanted_ && &slot == &slots_[0]) {
+    set(slot, Task::preparing);
+    slot.child->send(Verb::prepare, directory);
+  }
+}
+
+void Shepherd::step(int wait_ms) {
+  std::vector<pollfd> polled;
+  std::vector<uint32_t> numbers;
+  for (uint32_t number = 0; number < slots_.size(); ++number)
+    if (slots_[number].child) {
+      polled.push_back({slots_[number].child->output(), POLLIN, 0});
+      numbers.push_back(number);
+    }
+  if (poll(polled.data(), polled.size(), wait_ms) > 0)
+    for (size_t i = 0; i < polled.size(); ++i)
+      if (polled[i].revents != 0) take_output(numbers[i]);
+  check_silence();
+  sync_when_due();
+  leave_when_empty();
+}
+
+void Shepherd::take_output(uint32_t number) {
+  const bool more = slots_[number].child->read();
+  try {
+    while (slots_[number].child)
+      if (const auto frame = slots_[number].child->next())
+        on_frame(number, *frame);
+      else
+        break;
+  } catch (const Error& error) {
+    // A damaged stream is one more way for a worker to fail; what concerns the whole bake goes on.
+    if (error.status() != ExitStatus::defect) throw;
+    return on_death(number, error.what());
+  }
+  if (!more && slots_[number].child) on_death(number, "");
+}
+
+void Shepherd::on_frame(uint32_t number, const Frame& frame) {
+  Slot& slot = slots_[number];
+  slot.last_sign = Clock::now();
+  if (frame.verb == Verb::hello) {
+    if (parsed(frame).value("version", 0) != protocol_version)
+      throw Error(ExitStatus::input_output,
+                  worker_program().string() + ": is of another version than veduta; build both");
+    set(slot, Task::waiting);
+    next_task(slot);
+  } else if (frame.verb == Verb::progress) {
+    const json progress = parsed(frame);
+    StageMessage stage;
+    stage.stage = FixedText<64>(progress.value("stage", ""));
+    stage.done = progress.value("done", uint64_t{0}), stage.total = progress.value("total", uint64_t{0});
+    tell(stage);
+  } else if (frame.verb == Verb::prepared) {
+    const json counts = parsed(frame);
+    for (const auto& note : counts.value("notes", json::array())) {
+      NoteMessage message;
+      message.text = FixedText<400>(note.is_string() ? note.get<std::string>() : note.dump());
+      tell(message);
+    }
+    PreparedMessage prepared;
+    prepared.cells = counts.value("cells", uint64_t{0}),
+    prepared.objects = counts.value("objects", uint64_t{0});
+    prepared.triangles = counts.value("triangles", uint64_t{0});
+    set(slot, Task::waiting);
+    prepare_wanted_ = false;
+    tell(prepared);
+  } else if (frame.verb == Verb::opened) {
+    slot.renderer = parsed(frame).value("renderer", "");
+    slot.deaths_before_open = 0;
+    if (slot.task == Task::leaving) return;
+    set(slot, Task::idle);
+    IdleMessage idle;
+    idle.slot = number, idle.renderer = FixedText<200>(slot.renderer);
+    tell(idle);
+  } else if (frame.verb == Verb::cell_baked) {
+    on_record(number, frame);
+  } else if (frame.verb == Verb::lease_done) {
+    LeaseDoneMessage done;
+    done.lease = slot.lease, done.slot = number;
+    slot.lease = 0;
+    if (slot.task == Task::baking) set(slot, Task::idle);
+    tell(done);
+    if (slot.task == Task::leaving) slot.child.reset();
+  } else if (frame.verb == Verb::failed) {
+    on_failed(slot, frame);
+  }
+}
+
+void Shepherd::on_record(uint32_t number, const Frame& frame) {
+  Slot& slot = slots_[number];
+  CellRecord record;
+  try {
+    record = decode_cell_record(frame.payload.data(), frame.payload.size());
+  } catch (const Error& error) {
+    throw Error(ExitStatus::defect, std::string("worker stream: ") + error.what());
+  }
+  if (!slot.shard)
+    slot.shard =
+        std::make_unique<ShardWriter>(shard_file(options_.run, job_.attempt, transport_.rank(), number),
+                                      job_.fingerprint.text(), slot.renderer);
+  slot.shard->append(record);
+  unsynced_bytes_ += frame.payload.size();
+  CellMessage message;
+  message.lease = slot.lease, message.cell = record.cell, message.bake_us = record.bake_us;
+  tell(message);
+  // Asked to stop while it baked: this was the cell in hand.
+  if (slot.task == Task::leaving) slot.child.reset();
+}
+
+void Shepherd::on_failed(Slot& slot, const Frame& frame) {
+  const json failed = parsed(frame);
+  const int status = failed.value("status", static_cast<int>(ExitStatus::defect));
+  slot.last_words = failed.value("message", "");
+  // A defect is worth another try, like a crash. What the user must mend is not.
+  if (status == static_cast<int>(ExitStatus::defect)) return;
+  throw Error(static_cast<ExitStatus>(status), slot.last_words);
+}
+
+void Shepherd::on_death(uint32_t number, const std::string& why) {
+  Slot& slot = slots_[number];
+  const std::string ending = slot.child->reap(!why.empty());
+  slot.child.reset();
+  if (stop_until_) return;
+  if (slot.task != Task::idle && slot.task != Task::baking) ++slot.deaths_before_open;
+  LostMessage lost;
+  lost.lease = slot.lease, lost.slot = number;
+  lost.given_up = slot.deaths_before_open >= deaths_allowed_before_open;
+  std::string reason = why.empty() ? ending : why;
+  if (!slot.last_words.empty()) reason += ": " + slot.last_words;
+  lost.reason = FixedText<400>(reason);
+  tell(lost);
+  if (!lost.given_up) spawn(number);
+}
+
+void Shepherd::check_silence() {
+  for (uint32_t number = 0; number < slots_.size(); ++number) {
+    const Slot& slot = slots_[number];
+    if (!slot.child || slot.task == Task::idle || slot.task == Task::waiting || slot.task == Task::leaving)
+      continue;
+    const double silent_s = std::chrono::duration<double>(Clock::now() - slot.last_sign).count();
+    const double limit_s = slot.task == Task::baking      ? options_.cell_timeout_s
+                           : slot.task == Task::preparing ? prepare_timeout_s
+                                                          : open_timeout_s;
+    if (silent_s > limit_s) on_death(number, fmt::format("silent for {:.0f} s, killed", silent_s));
+  }
+}
+
+void Shepherd::sync_when_due() {
+  if (unsynced_bytes_ == 0) return;
+  if (unsynced_bytes_ < sync_bytes && Clock::now() - last_sync_ < sync_interval) return;
+  for (Slot& slot : slots_)
+    if (slot.shard) slot.shard->sync();
+  unsynced_bytes_ = 0, last_sync_ = Clock::now();
+}
+
+void Shepherd::stop(bool finish_cells) {
+  if (stop_until_) return;
+  stop_until_ = Clock::now() + stop_patience;
+  for (Slot& slot : slots_) {
+    if (!slot.child) continue;
+    if (slot.task == Task::idle || slot.task == Task::waiting)
+      slot.child->send(Verb::quit, "{}");
+    else if (slot.task != Task::baking || !finish_cells)
+      slot.child.reset();
+    slot.task = Task::leaving;
+  }
+  for (Slot& slot : slots_)
+    if (slot.shard) slot.shard->sync();
+  unsynced_bytes_ = 0;
+}
+
+void Shepherd::abandon() {
+  if (left_) return;
+  stop_until_ = Clock::now();
+  unsynced_bytes_ = 0;
+  for (Slot& slot : slots_) slot.child.reset(), slot.shard.reset();
+  left_ = true;
+  tell(LeftMessage{});
+}
+
+void Shepherd::leave_when_empty() {
+  if (!stop_until_ || left_) return;
+  bool empty = true;
+  for (Slot& slot : slots_) {
+    if (Clock::now() > *stop_until_) slot.child.reset();
+    empty = empty && !slot.child;
+  }
+  if (!empty) return;
+  for (Slot& slot : slots_) {
+    if (slot.shard) slot.shard->sync();
+    slot.shard.reset();
+  }
+  left_ = true;
+  tell(LeftMessage{});
+}
+
+}  // namespace veduta

@@ -1,0 +1,50 @@
+#include "farm/signals.h"
+
+#include <signal.h>
+#include <time.h>
+
+#include <atomic>
+
+namespace veduta {
+namespace {
+
+std::atomic<bool> stop{false}, at_once{false};
+std::atomic<long> first_interrupt_ms{0};
+
+long now_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec * 1000 + now.tv_nsec / 1000000;
+}
+
+void on_signal(int number) {
+  stop = true;
+  if (number != SIGINT) return;
+  // The same Ctrl-C may arrive twice, through the terminal and through a launcher; a person is slower than
+  // that.
+  if (first_interrupt_ms == 0)
+    first_interrupt_ms = now_ms();
+  else if (now_ms() - first_interrupt_ms > 300)
+    at_once = true;
+}
+
+}  // namespace
+
+void install_stop_signals() {
+  struct sigaction action = {};
+  action.sa_handler = on_signal;
+  sigemptyset(&action.sa_mask);
+  for (const int number : {SIGTERM, SIGINT, SIGUSR1}) sigaction(number, &action, nullptr);
+  // A child that died is seen by the end of its stream, not by a signal of ours.
+  action.sa_handler = SIG_IGN;
+  sigaction(SIGPIPE, &action, nullptr);
+}
+
+bool stop_requested() {
+  return stop;
+}
+bool stop_at_once_requested() {
+  return at_once;
+}
+
+}  // namespace veduta

@@ -1,0 +1,376 @@
+// The whole program with a worker that needs no GL: alone, under mpirun, killed in every way, continued.
+#include "farm/bake.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "merge/merge.h"
+#include "pvs/pvs_file.h"
+
+namespace veduta {
+namespace {
+
+namespace fs = std::filesystem;
+using Environment = std::vector<std::pair<std::string, std::string>>;
+
+std::string slurp(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+/// A shell command in a process of its own; what it prints goes to a file.
+class Process {
+ public:
+  Process(const std::string& command, const Environment& environment, fs::path output)
+      : output_(std::move(output)) {
+    pid_ = fork();
+    if (pid_ != 0) return;
+    for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
+    const int file = open(output_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    dup2(file, STDOUT_FILENO), dup2(file, STDERR_FILENO);
+    execl("/bin/sh", "sh", "-c", ("exec " + command).c_str(), nullptr);
+    _exit(127);
+  }
+  ~Process() {
+    if (pid_ > 0) kill(pid_, SIGKILL), wait();
+  }
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  pid_t pid() const { return pid_; }
+  /// The exit status; 128 + n after a signal.
+  int wait() {
+    int status = 0;
+    while (pid_ > 0 && waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+    }
+    pid_ = -1;
+    return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  }
+  std::string output() const { return slurp(output_); }
+
+ private:
+  fs::path output_;
+  pid_t pid_ = -1;
+};
+
+struct Entry {
+  pid_t pid = 0, parent = 0;
+  std::string name;
+};
+
+std::vector<Entry> processes() {
+  std::vector<Entry> all;
+  for (const auto& directory : fs::directory_iterator("/proc")) {
+    std::ifstream stat(directory.path() / "stat");
+    std::string line;
+    if (!std::getline(stat, line)) continue;
+    const size_t open_mark = line.find('('), close_mark = line.rfind(')');
+    if (close_mark == std::string::npos || line[close_mark + 2] == 'Z') continue;
+    Entry entry;
+    entry.pid = std::atoi(line.c_str());
+    entry.name = line.substr(open_mark + 1, close_mark - open_mark - 1);
+    entry.parent = std::atoi(line.c_str() + close_mark + 4);
+    all.push_back(entry);
+  }
+  return all;
+}
+
+/// Living descendants of a process with this name.
+std::vector<pid_t> descendants(pid_t root, const std::string& name) {
+  const auto all = processes();
+  std::vector<pid_t> family{root}, found;
+  for (size_t i = 0; i < family.size(); ++i)
+    for (const Entry& entry : all)
+      if (entry.parent == family[i]) {
+        family.push_back(entry.pid);
+        if (entry.name == name) found.push_back(entry.pid);
+      }
+  return found;
+}
+
+template <typename Condition>
+bool within(double seconds, const Condition& condition) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return true;
+}
+
+class Bake : public testing::Test {
+ protected:
+  Bake() {
+    fs::create_directories(directory);
+    std::ofstream(directory / "city.json") << "a model that the fake worker does not read";
+    config = write_config("demo.toml", "");
+  }
+  ~Bake() override {
+    std::error_code ignored;
+    fs::permissions(directory, fs::perms::owner_all, ignored);
+    fs::remove_all(directory, ignored);
+  }
+
+  std::string write_config(const std::string& name, const std::string& more) const {
+    std::ofstream(directory / name) << "[scene]\nmodel = 'city.json'\n" << more;
+    return (directory / name).string();
+  }
+  std::string bake(const std::string& more = "", const std::string& run = "run") const {
+    return std::string(VEDUTA_PROGRAM) + " bake " + config + " --workers 2 --out " +
+           (directory / run).string() + " " + more;
+  }
+  static std::string mpirun(int ranks, const std::string& command) {
+    return "mpirun --oversubscribe --allow-run-as-root --bind-to none -n " + std::to_string(ranks) + " " +
+           command;
+  }
+  std::unique_ptr<Process> start(const std::string& command, Environment environment = {}) const {
+    environment.emplace_back("VEDUTA_WORKER", VEDUTA_FAKE_WORKER);
+    return std::make_unique<Process>(command, environment, directory / "output.txt");
+  }
+  int run(const std::string& command, const Environment& environment = {}) {
+    const auto process = start(command, environment);
+    const int status = process->wait();
+    output = process->output();
+    return status;
+  }
+  std::string digest(const std::string& run_name = "run") const {
+    const auto report = nlohmann::json::parse(slurp(directory / run_name / "report.json"), nullptr, false);
+    return report.is_object() ? report["merge"].value("content_digest", "") : "";
+  }
+  /// Enough records in the shards for the bake to be in its middle.
+  bool in_the_middle(const std::string& run_name = "run") const {
+    return within(20, [&] {
+      uint64_t bytes = 0;
+      std::error_code ignored;
+      for (const auto& shard : fs::directory_iterator(directory / run_name / "shards", ignored))
+        bytes += shard.file_size(ignored);
+      return bytes > 5000;
+    });
+  }
+  /// The digest of an undisturbed bake.
+  std::string reference() {
+    EXPECT_EQ(run(bake("", "reference")), 0) << output;
+    EXPECT_EQ(digest("reference").size(), 32u) << output;
+    return digest("reference");
+  }
+  static bool has_mpirun() { return std::system("command -v mpirun > /dev/null") == 0; }
+
+  const fs::path directory = fs::temp_directory_path() / ("veduta-bake-test-" + std::to_string(getpid()));
+  std::string config, output;
+  const Environment slow{{"FAKE_CELL_MS", "8"}};
+};
+
+TEST_F(Bake, AloneAndAgainAndFresh) {
+  ASSERT_EQ(run(bake()), 0) << output;
+  const std::string first = digest();
+  EXPECT_NE(output.find("200 cells (200 in this run, 0 all visible)"), std::string::npos) << output;
+  EXPECT_NE(output.find(first), std::string::npos) << output;
+  ASSERT_EQ(run(bake()), 0) << output;
+  EXPECT_NE(output.find("200 cells (0 in this run"), std::string::npos) << output;
+  EXPECT_EQ(digest(), first);
+  ASSERT_EQ(run(bake("--fresh")), 0) << output;
+  EXPECT_NE(output.find("200 cells (200 in this run"), std::string::npos) << output;
+  EXPECT_EQ(digest(), first);
+  EXPECT_TRUE(read_pvs(directory / "run" / "city.pvs.h5").header.complete);
+}
+
+TEST_F(Bake, SameDigestForOneTwoAndThreeRanks) {
+  if (!has_mpirun()) GTEST_SKIP() << "no mpirun";
+  const std::string expected = reference();
+  for (const int ranks : {1, 2, 3}) {
+    ASSERT_EQ(run(mpirun(ranks, bake("--workers 1", "ranks" + std::to_string(ranks)))), 0) << output;
+    EXPECT_EQ(digest("ranks" + std::to_string(ranks)), expected) << ranks << " ranks";
+  }
+}
+
+TEST_F(Bake, KilledWorkerIsReplaced) {
+  const std::string expected = reference();
+  const auto process = start(bake(), slow);
+  ASSERT_TRUE(in_the_middle());
+  const auto workers = descendants(process->pid(), "fake_worker");
+  ASSERT_EQ(workers.size(), 2u);
+  kill(workers[0], SIGKILL);
+  EXPECT_EQ(process->wait(), 0) << process->output();
+  EXPECT_NE(process->output().find("1 retries"), std::string::npos) << process->output();
+  EXPECT_EQ(digest(), expected);
+}
+
+TEST_F(Bake, WorkersThatCrashAtRandomFinishTheBake) {
+  const std::string expected = reference();
+  ASSERT_EQ(run(bake(), {{"FAKE_CRASH_RATE", "0.05"}}), 0) << output;
+  EXPECT_EQ(digest(), expected);
+}
+
+TEST_F(Bake, HungWorkerIsReplaced) {
+  const std::string expected = reference();
+  ASSERT_EQ(run(bake("--workers 1 --cell-timeout 0.5"), {{"FAKE_HANG_ONCE", (directory / "hung").string()}}),
+            0)
+      << output;
+  EXPECT_TRUE(fs::exists(directory / "hung"));
+  EXPECT_EQ(digest(), expected);
+}
+
+TEST_F(Bake, KilledCoordinatorContinuesAndLeavesNoOrphan) {
+  const std::string expected = reference();
+  for (int kills = 0; kills < 3; ++kills) {
+    const auto process = start(bake(), slow);
+    ASSERT_TRUE(in_the_middle());
+    std::this_thread::sleep_for(std::chrono::milliseconds(100 + 50 * kills));
+    const auto workers = descendants(process->pid(), "fake_worker");
+    kill(process->pid(), SIGKILL);
+    process->wait();
+    EXPECT_TRUE(within(3, [&] {
+      for (const pid_t worker : workers)
+        for (const Entry& entry : processes())
+          if (entry.pid == worker) return false;
+      return true;
+    })) << "a worker outlived its shepherd";
+  }
+  ASSERT_EQ(run(bake()), 0) << output;
+  EXPECT_NE(output.find("continuing: "), std::string::npos) << output;
+  EXPECT_EQ(output.find("(200 in this run"), std::string::npos) << output;
+  EXPECT_EQ(digest(), expected);
+}
+
+TEST_F(Bake, KilledRankOrMpirunContinues) {
+  if (!has_mpirun()) GTEST_SKIP() << "no mpirun";
+  const std::string expected = reference();
+  for (const bool kill_launcher : {false, true}) {
+    const std::string name = kill_launcher ? "launcher" : "rank";
+    const auto process = start(mpirun(2, bake("--workers 1", name)), slow);
+    ASSERT_TRUE(in_the_middle(name));
+    const auto ranks = descendants(process->pid(), "veduta");
+    const auto workers = descendants(process->pid(), "fake_worker");
+    ASSERT_EQ(ranks.size(), 2u);
+    kill(kill_launcher ? process->pid() : ranks.back(), SIGKILL);
+    EXPECT_NE(process->wait(), 0);
+    EXPECT_TRUE(within(5,
+                       [&] {
+                         for (const Entry& entry : processes())
+                           for (const auto* group : {&ranks, &workers})
+                             if (std::find(group->begin(), group->end(), entry.pid) != group->end())
+                               return false;
+                         return true;
+                       }))
+        << "something outlived " << name;
+    ASSERT_EQ(run(mpirun(2, bake("--workers 1", name))), 0) << output;
+    EXPECT_NE(output.find("continuing: "), std::string::npos) << output;
+    EXPECT_EQ(digest(name), expected);
+  }
+}
+
+TEST_F(Bake, PoisonCellIsRecordedAllVisible) {
+  ASSERT_EQ(run(bake(), {{"FAKE_CRASH_CELLS", "57"}}), 3) << output;
+  EXPECT_NE(output.find("cell 57 ended its worker three times"), std::string::npos) << output;
+  const PvsFile file = read_pvs(directory / "run" / "city.pvs.h5");
+  EXPECT_FALSE(file.header.complete);
+  for (uint32_t cell = 0; cell < 200; ++cell)
+    EXPECT_EQ(file.cell_status[cell], cell == 57 ? CellStatus::all_visible : CellStatus::baked) << cell;
+  EXPECT_EQ(file.row(57).size(), file.city.scene.objects.size());
+  EXPECT_EQ(run(std::string(VEDUTA_PROGRAM) + " status --exit-code " + (directory / "run").string()), 3)
+      << output;
+}
+
+TEST_F(Bake, SignalsStopItResumably) {
+  const std::string expected = reference();
+  for (const int number : {SIGTERM, SIGINT, SIGUSR1}) {
+    const auto process = start(bake(), slow);
+    ASSERT_TRUE(in_the_middle());
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    kill(process->pid(), number);
+    kill(process->pid(), number);
+    EXPECT_EQ(process->wait(), 75) << process->output();
+    EXPECT_NE(process->output().find("continue with: veduta bake "), std::string::npos) << process->output();
+    EXPECT_EQ(run(std::string(VEDUTA_PROGRAM) + " status --exit-code " + (directory / "run").string()), 75)
+        << output;
+  }
+  ASSERT_EQ(run(bake()), 0) << output;
+  EXPECT_EQ(digest(), expected);
+  EXPECT_EQ(run(std::string(VEDUTA_PROGRAM) + " status --exit-code " + (directory / "run").string()), 0)
+      << output;
+}
+
+TEST_F(Bake, SignalledMpirunStopsResumably) {
+  if (!has_mpirun()) GTEST_SKIP() << "no mpirun";
+  const auto process = start(mpirun(2, bake("--workers 1")), slow);
+  ASSERT_TRUE(in_the_middle());
+  kill(process->pid(), SIGUSR1);
+  EXPECT_EQ(process->wait(), 75) << process->output();
+}
+
+TEST_F(Bake, RunningBakeLocksItsDirectory) {
+  const auto process = start(bake(), {{"FAKE_CELL_MS", "50"}});
+  ASSERT_TRUE(within(20, [&] { return fs::exists(directory / "run" / "fingerprint"); }));
+  const Environment worker{{"VEDUTA_WORKER", VEDUTA_FAKE_WORKER}};
+  Process second(bake(), worker, directory / "second.txt");
+  EXPECT_EQ(second.wait(), 5) << second.output();
+  EXPECT_NE(second.output().find("process " + std::to_string(process->pid())), std::string::npos)
+      << second.output();
+  Process status(std::string(VEDUTA_PROGRAM) + " status --json " + (directory / "run").string(), worker,
+                 directory / "status.txt");
+  EXPECT_EQ(status.wait(), 0) << status.output();
+  EXPECT_NE(status.output().find("\"running\""), std::string::npos) << status.output();
+}
+
+TEST_F(Bake, AnotherJobIsRefusedAndTheKeyNamed) {
+  ASSERT_EQ(run(bake("--no-merge"), {{"FAKE_CELLS", "5"}}), 0) << output;
+  config = write_config("other.toml", "[cells]\nsize = 12\n");
+  EXPECT_EQ(run(bake()), 4);
+  EXPECT_NE(output.find("'cells.size' is 10.0 there and 12.0 here"), std::string::npos) << output;
+  std::ofstream(directory / "city.json") << "changed";
+  EXPECT_EQ(run(bake()), 4);
+  EXPECT_NE(output.find("'scene.model 1 content'"), std::string::npos) << output;
+}
+
+TEST_F(Bake, MistakesAreOneLineWithTheirStatus) {
+  const auto expect_line = [&](int status, const std::string& command, const std::string& part,
+                               const Environment& environment = {}) {
+    EXPECT_EQ(run(command, environment), status) << output;
+    EXPECT_NE(output.find(part), std::string::npos) << output;
+    EXPECT_EQ(output.rfind("veduta: ", 0), 0u) << output;
+    EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 1) << output;
+  };
+  const std::string good = config;
+  expect_line(2, bake("--nonsense"), "--nonsense");
+  expect_line(2, std::string(VEDUTA_PROGRAM), "subcommand");
+  config = write_config("unknown.toml", "[cells]\nsise = 3\n");
+  expect_line(2, bake(), "line 4: unknown key 'cells.sise'; did you mean 'cells.size'?");
+  config = (directory / "nowhere.toml").string();
+  expect_line(74, bake(), "nowhere.toml");
+  std::ofstream(directory / "missing.toml") << "[scene]\nmodel = 'missing.json'\n";
+  config = (directory / "missing.toml").string();
+  expect_line(65, bake(), "missing.json");
+  EXPECT_FALSE(fs::exists(directory / "run")) << "nothing half-written";
+  config = good;
+  expect_line(74, bake("", "city.json/run"), "cannot be written");
+}
+
+TEST_F(Bake, WorkersErrorStopsTheBake) {
+  EXPECT_EQ(run(bake(), {{"FAKE_FAIL", "65"}}), 65) << output;
+  EXPECT_NE(output.find("veduta: model.json: broken on purpose; mend it\n"), std::string::npos) << output;
+  EXPECT_EQ(run(bake("-q"), {{"FAKE_PREPARE_DIES", "1"}}), 70) << output;
+  EXPECT_NE(output.find("the preparation ended its worker three times: signal 9"), std::string::npos)
+      << output;
+  EXPECT_EQ(run(bake()), 0) << output;
+}
+
+TEST_F(Bake, DryRunWritesNothing) {
+  ASSERT_EQ(run(bake("--dry-run")), 0) << output;
+  EXPECT_NE(output.find("fingerprint "), std::string::npos);
+  EXPECT_NE(output.find("device 0: software (fake)"), std::string::npos) << output;
+  EXPECT_FALSE(fs::exists(directory / "run"));
+}
+
+}  // namespace
+}  // namespace veduta

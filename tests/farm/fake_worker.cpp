@@ -1,0 +1,161 @@
+// A worker without GL for the tests of the farm: it speaks the protocol, and fails in the ways that its
+// environment names.
+//   FAKE_CELLS       number of view-cells that `prepare` makes [200]
+//   FAKE_CELL_MS     time that a cell takes [1]
+//   FAKE_CRASH_CELLS cells ("17,40") whose bake ends in SIGKILL, each time
+//   FAKE_CRASH_RATE  probability (0..1) that a cell ends in SIGSEGV
+//   FAKE_HANG_ONCE   a file: the worker that can create it hangs at its tenth cell
+//   FAKE_FAIL        a status: `prepare` answers `failed` with it
+//   FAKE_PREPARE_DIES  set: `prepare` ends in SIGKILL
+#include <fcntl.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <set>
+#include <sstream>
+#include <thread>
+
+#include "merge/merge.h"
+#include "pvs/pvs_file.h"
+#include "pvs/shard.h"
+#include "scene/error.h"
+#include "worker/protocol.h"
+
+namespace veduta {
+namespace {
+
+using nlohmann::json;
+constexpr uint32_t object_count = 40;
+
+std::string environment(const char* name, const char* otherwise) {
+  const char* value = std::getenv(name);
+  return value ? value : otherwise;
+}
+
+void answer(Verb verb, const json& value) {
+  write_frame(STDOUT_FILENO, encode_frame(verb, value.dump()));
+}
+
+/// A row of tetrahedra above a row of cells.
+City tiny_city(uint32_t cells) {
+  City city;
+  for (uint32_t i = 0; i < object_count; ++i) {
+    const auto x = static_cast<float>(i);
+    const auto first = static_cast<uint32_t>(city.scene.vertices.size());
+    for (const glm::vec3& corner :
+         {glm::vec3(x, 5, 0), glm::vec3(x + 0.9f, 5, 0), glm::vec3(x, 5.9f, 0), glm::vec3(x, 5, 2)})
+      city.scene.vertices.push_back(corner);
+    for (const glm::uvec3& corners :
+         {glm::uvec3(0, 2, 1), glm::uvec3(0, 1, 3), glm::uvec3(1, 2, 3), glm::uvec3(0, 3, 2)})
+      city.scene.triangles.push_back(corners + first);
+    city.scene.material.resize(city.scene.triangles.size(), Material::wall);
+    city.scene.objects.push_back({"object " + std::to_string(i), Kind::building, 4 * i, 4 * (i + 1)});
+  }
+  city.slices.resize(object_count);
+  city.triangle_slices.resize(city.scene.triangles.size());
+  for (uint32_t i = 0; i < cells; ++i) {
+    const auto x = static_cast<float>(i);
+    city.cells.push_back({{x, 0, 0}, {x + 1, 1, 1}});
+  }
+  city.navigation.free = {{0, 0, 0}, 1, 1, {0x5555}, {0}};
+  city.navigation.ground = {0, 0, 1, 1, 1, {0}};
+  return city;
+}
+
+/// The same row for a cell whoever bakes it.
+CellRecord bake(uint32_t cell) {
+  CellRecord record;
+  record.cell = cell, record.bake_us = 1000;
+  for (uint32_t object = 0; object < object_count; ++object)
+    if ((cell * 2654435761u >> (object % 31)) & 1u) record.row.push_back({object, completely_visible});
+  return record;
+}
+
+class FakeWorker {
+ public:
+  FakeWorker() {
+    std::istringstream list(environment("FAKE_CRASH_CELLS", ""));
+    for (std::string cell; std::getline(list, cell, ',');)
+      crash_cells_.insert(static_cast<uint32_t>(std::stoul(cell)));
+  }
+
+  int run() {
+    answer(Verb::hello, {{"pid", getpid()}, {"version", protocol_version}});
+    while (const auto frame = read_frame(STDIN_FILENO)) {
+      if (frame->verb == Verb::quit) return 0;
+      const json value = json::parse(frame->text());
+      if (frame->verb == Verb::prepare) {
+        if (const int status = prepare({value.at("directory").get<std::string>()}); status != 0)
+          return status;
+      } else if (frame->verb == Verb::open) {
+        const City city = read_city(RunPaths{value.at("directory").get<std::string>()}.city());
+        answer(Verb::opened, {{"renderer", "fake"}, {"cells", city.cells.size()}});
+      } else if (frame->verb == Verb::bake) {
+        for (const uint32_t cell : value.at("cells").get<std::vector<uint32_t>>()) bake_cell(cell);
+        answer(Verb::lease_done, json::object());
+      }
+    }
+    return 0;
+  }
+
+ private:
+  int prepare(const RunPaths& run) {
+    if (std::getenv("FAKE_PREPARE_DIES")) raise(SIGKILL);
+    if (const int status = std::atoi(environment("FAKE_FAIL", "0").c_str()); status != 0) {
+      answer(Verb::failed, {{"status", status}, {"message", "model.json: broken on purpose; mend it"}});
+      return status;
+    }
+    answer(Verb::progress, {{"stage", "seeds"}, {"done", 1}, {"total", 2}});
+    const auto unfinished = run.directory / "prepared.tmp";
+    std::filesystem::remove_all(unfinished);
+    std::filesystem::create_directories(unfinished);
+    const auto cells = static_cast<uint32_t>(std::stoul(environment("FAKE_CELLS", "200")));
+    write_city(unfinished / "city.h5", tiny_city(cells));
+    std::filesystem::rename(unfinished, run.prepared());
+    answer(Verb::prepared, {{"cells", cells},
+                            {"objects", object_count},
+                            {"triangles", 4 * object_count},
+                            {"notes", {"a note"}}});
+    return 0;
+  }
+
+  void bake_cell(uint32_t cell) {
+    ++baked_;
+    if (crash_cells_.count(cell)) raise(SIGKILL);
+    if (std::uniform_real_distribution<>()(random_) < crash_rate_) raise(SIGSEGV);
+    if (const std::string file = environment("FAKE_HANG_ONCE", ""); !file.empty() && baked_ == 10)
+      if (const int made = open(file.c_str(), O_CREAT | O_EXCL, 0600); made >= 0)
+        for (;;) pause();
+    std::this_thread::sleep_for(std::chrono::milliseconds(cell_ms_));
+    const auto record = encode(bake(cell));
+    write_frame(STDOUT_FILENO, encode_frame(Verb::cell_baked, record.data(), record.size()));
+  }
+
+  std::set<uint32_t> crash_cells_;
+  double crash_rate_ = std::stod(environment("FAKE_CRASH_RATE", "0"));
+  int cell_ms_ = std::stoi(environment("FAKE_CELL_MS", "1"));
+  int baked_ = 0;
+  std::mt19937 random_{static_cast<uint32_t>(getpid())};
+};
+
+}  // namespace
+}  // namespace veduta
+
+int main(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "--probe") {
+    std::cout << "0: software (fake)\n";
+    return 0;
+  }
+  try {
+    return veduta::FakeWorker().run();
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+    return 70;
+  }
+}
