@@ -71,12 +71,14 @@ class ColumnReader {
   }
 
  private:
-  void check_storage() const;
+  int rank() const { return column_.columns == 1 ? 1 : 2; }
+  void check_storage();
+  void check_chunk(uint64_t first) const;
 
   const Input& input_;
   const Column& column_;
   Handle dataset_, type_;
-  uint64_t rows_ = 0, columns_ = 1, stored_bytes_ = 0;
+  uint64_t rows_ = 0, columns_ = 1, stored_bytes_ = 0, chunk_rows_ = 1;
   size_t row_bytes_ = 0;
 };
 
