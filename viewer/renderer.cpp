@@ -49,7 +49,7 @@ Renderer::Renderer(const City& city, const IndexRanges& ranges, uint32_t width, 
     throw Error(ExitStatus::usage, "gpu: the driver lacks GL_ARB_clip_control; use --gpu software");
   const Box bounds = city.scene.bounds();
   // Haze gives depth to a street without hiding the far end of the city.
-  haze_m_ = std::max(1500.0f, bounds.empty() ? 0.0f : 1.5f * glm::length(bounds.upper - bounds.lower));
+  haze_m_ = std::max(3000.0f, bounds.empty() ? 0.0f : 3.0f * glm::length(bounds.upper - bounds.lower));
   upload(city, ranges);
   make_targets(samples);
 }

@@ -12,6 +12,7 @@ namespace {
 constexpr size_t directions = 36;
 constexpr size_t most_candidates = 1500;  // enough for a choice, and under a second in a large city
 constexpr float longest_view_m = 90.0f;   // farther than this, a longer street makes no better picture
+constexpr float upwards_deg = 6;          // level, half of the picture would be the ground
 
 struct Candidate {
   uint32_t cell = 0;
@@ -52,20 +53,24 @@ std::array<float, directions> built_horizon(const PvsFile& file, const std::vect
   return built;
 }
 
-// The best direction of a cell: a long view with open space beside it, and buildings within the picture's
-// width.
+// The best direction of a cell: a long view with some space beside it, and buildings on both sides.
 Candidate rate(const PvsFile& file, const std::vector<Box>& bounds, uint32_t cell) {
   const glm::vec3 eye = file.city.cells[cell].center();
   const auto length = free_lengths(file.city.navigation.free, eye);
   const auto built = built_horizon(file, bounds, cell, eye);
-  Candidate best{cell, {eye, 0, 0}, -1};
+  Candidate best{cell, {eye, 0, upwards_deg}, -1};
   for (size_t d = 0; d < directions; ++d) {
     const auto beside = [&](const std::array<float, directions>& of, size_t by) {
       return of[(d + by) % directions] + of[(d + directions - by) % directions];
     };
     const float open_m = length[d] + 0.5f * beside(length, 1) + 0.25f * beside(length, 3);
-    const float city = built[d] + beside(built, 1) + beside(built, 2) + beside(built, 3);
-    const float score = (open_m + 0.1f) * (std::min(city, 4.0f) + 0.1f);
+    const auto side = [&](size_t turn) {
+      float sum = 0;
+      for (size_t by = 1; by <= 4; ++by) sum += built[(d + turn * by) % directions];
+      return std::min(sum, 3.0f);
+    };
+    const float city = std::min(built[d], 1.0f) + 2 * std::sqrt(side(1) * side(directions - 1));
+    const float score = (open_m + 0.1f) * (city + 0.1f);
     if (score > best.score) best.score = score, best.pose.yaw_deg = yaw_of(d);
   }
   return best;
