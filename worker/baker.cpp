@@ -1,0 +1,68 @@
+#include "worker/baker.h"
+
+#include <chrono>
+
+#include "worker/prepare.h"
+#include "worker/view_cells.h"
+
+namespace veduta {
+namespace {
+
+std::vector<Box> object_boxes(const Scene& scene) {
+  std::vector<Box> boxes;
+  for (const Object& object : scene.objects) boxes.push_back(scene.bounds(object));
+  return boxes;
+}
+
+int local_rank() {
+  const char* rank = std::getenv("OMPI_COMM_WORLD_LOCAL_RANK");
+  if (rank == nullptr) rank = std::getenv("SLURM_LOCALID");
+  return rank == nullptr ? 0 : std::atoi(rank);
+}
+
+}  // namespace
+
+std::vector<Box> parts_of(const Box& cell, int subdivide) {
+  std::vector<Box> parts;
+  const glm::vec3 step = (cell.upper - cell.lower) / glm::vec3(static_cast<float>(subdivide), static_cast<float>(subdivide), 1);
+  for (int j = 0; j < subdivide; ++j) {
+    for (int i = 0; i < subdivide; ++i) {
+      const glm::vec3 lower = cell.lower + step * glm::vec3(i, j, 0);
+      parts.push_back({lower, lower + step});
+    }
+  }
+  return parts;
+}
+
+Baker::Baker(City city, const std::vector<Ring>& rings, const Settings& settings, const std::string& gpu)
+    : city_(std::move(city)),
+      subdivide_(settings.occlusion.subdivide),
+      context_(gpu, local_rank()),
+      counts_(city_.scene, city_.slices, city_.triangle_slices),
+      slice_boxes_(slice_boxes(city_.scene, city_.slices, city_.triangle_slices)) {
+  panorama_ = std::make_unique<Panorama>(object_boxes(city_.scene), slice_boxes_, rings,
+                                         PanoramaOptions{settings.occlusion.resolution, part_half_extent(settings)});
+}
+
+CellRecord Baker::bake(uint32_t cell) {
+  const auto start = std::chrono::steady_clock::now();
+  panorama_->begin_cell();
+  // An eye may be a seed away from free space, beside a wall whose voxels are taken: two seeds are on the safe side.
+  const float margin_m = 2 * city_.navigation.free.leaf_size_m;
+  for (const Box& part : parts_of(city_.cells[cell], subdivide_)) {
+    if (touches_free(city_.navigation.free, part, margin_m)) panorama_->add_part(part.center());
+  }
+  const Occlusion& occlusion = panorama_->finish_cell();
+  CellRecord record;
+  record.cell = cell;
+  for (uint32_t o = 0; o < city_.scene.objects.size(); ++o) {
+    if (occlusion.visible[o] == 0) continue;
+    const VisibilityIndex index = counts_.choose(o, &occlusion.occluded[slice_boxes_.object_slice_begin[o]]);
+    if (!index.nothing()) record.row.push_back({o, index});
+  }
+  const auto elapsed = std::chrono::steady_clock::now() - start;
+  record.bake_us = static_cast<uint32_t>(std::chrono::duration_cast<std::chrono::microseconds>(elapsed).count());
+  return record;
+}
+
+}  // namespace veduta

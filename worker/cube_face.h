@@ -1,0 +1,42 @@
+// The faces of the cube that a panorama is drawn on. All are parallel to the axes, so that boxes project exactly.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <glm/mat3x3.hpp>
+
+#include "scene/box.h"
+
+namespace veduta {
+
+/// +x, -x, +y, -y, +z: what is straight below an eye (within 45 degrees) always counts as visible.
+inline constexpr int face_count = 5;
+
+/// Rows: right, up, forward. Turns a position relative to the eye into face coordinates; a rotation with entries 0 and +-1.
+inline glm::mat3 face_from_world(int face) {
+  const int forward = face / 2, right = (forward + 1) % 3, up = (forward + 2) % 3;
+  const float sign = face % 2 == 0 ? 1.0f : -1.0f;
+  glm::mat3 m(0.0f);  // m[column][row]
+  m[right][0] = sign, m[up][1] = 1.0f, m[forward][2] = sign;
+  return m;
+}
+
+/// Range of a box in face coordinates.
+inline Box to_face(int face, const Box& relative) {
+  const glm::mat3 m = face_from_world(face);
+  Box box;
+  box.extend(m * relative.lower), box.extend(m * relative.upper);
+  return box;
+}
+
+/// Does the box (in face coordinates) reach into the face's frustum |right|, |up| <= forward? If so, at which least depth.
+struct FaceTouch {
+  bool touches;
+  float nearest_m;
+};
+inline FaceTouch touch_face(const Box& b) {
+  const float nearest = std::max({b.lower.z, b.lower.x, -b.upper.x, b.lower.y, -b.upper.y, 0.0f});
+  return {nearest <= b.upper.z, nearest};
+}
+
+}  // namespace veduta

@@ -1,0 +1,200 @@
+#include "worker/panorama.h"
+
+#include <epoxy/gl.h>
+
+#include <glm/gtc/type_ptr.hpp>
+#include <string>
+
+#include "gl/handle.h"
+#include "gl/program.h"
+#include "scene/error.h"
+#include "worker/cube_face.h"
+#include "worker/occluder_store.h"
+#include "worker/panorama_shaders.h"
+
+namespace veduta {
+namespace {
+
+/// Binding points of the shaders' buffers.
+enum Binding : GLuint { pyramid_binding = 0, boxes_binding = 1, answers_binding = 2, slices_binding = 3, now_binding = 4 };
+
+void allocate(const GlBuffer& buffer, GLuint binding, size_t bytes, const void* data) {
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffer.id());
+  glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(std::max<size_t>(bytes, 4)), nullptr, GL_DYNAMIC_COPY);
+  if (data != nullptr && bytes > 0) glBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(bytes), data);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.id());
+}
+
+GLuint groups(size_t items, size_t size) { return static_cast<GLuint>((items + size - 1) / size); }
+
+}  // namespace
+
+struct Panorama::State {
+  State(const std::vector<Ring>& rings, const PanoramaOptions& opts)
+      : options(opts),
+        occluders(rings),
+        draw(Program::render(shader::occluder_vertex, shader::occluder_fragment)),
+        reduce(Program::compute(shader::pyramid)),
+        test_objects(Program::compute(std::string(shader::box_test) + shader::object_test)),
+        test_slices(Program::compute(std::string(shader::box_test) + shader::slice_test)) {}
+
+  PanoramaOptions options;
+  OccluderStore occluders;
+  Program draw, reduce, test_objects, test_slices;
+  GlTexture depth;
+  std::array<GlFramebuffer, face_count> framebuffers;
+  GlBuffer pyramid, boxes, answers, slices, seen_now;
+  int levels = 0;
+  size_t objects = 0, vertical_slices = 0;
+  std::vector<uint32_t> unseen;   // the answers before any part
+  std::vector<uint32_t> read_back;
+  Occlusion occlusion;
+
+  void make_targets();
+  void draw_face(int face, const glm::vec3& eye);
+  void build_pyramid();
+  void test(const Program& program, size_t items, const glm::vec3& eye);
+};
+
+void Panorama::State::make_targets() {
+  const GLsizei r = options.resolution;
+  glBindTexture(GL_TEXTURE_2D_ARRAY, depth.id());
+  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_DEPTH_COMPONENT32F, r, r, face_count);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  for (int face = 0; face < face_count; ++face) {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffers[face].id());
+    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, depth.id(), 0, face);
+    glDrawBuffer(GL_NONE);
+    glReadBuffer(GL_NONE);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+      throw Error(ExitStatus::defect, "occlusion: the driver takes no 32-bit float depth array of " + std::to_string(r) + " pixels");
+    }
+  }
+  size_t texels = 0;
+  for (int size = r; size > 2; size = std::max(size / 4, 1)) {
+    const int next = std::max(size / 4, 1);
+    texels += static_cast<size_t>(face_count) * next * next;
+    ++levels;
+  }
+  allocate(pyramid, pyramid_binding, texels * sizeof(float), nullptr);
+}
+
+void Panorama::State::draw_face(int face, const glm::vec3& eye) {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffers[face].id());
+  glClear(GL_DEPTH_BUFFER_BIT);
+  const glm::mat3 rotation = face_from_world(face);
+  glUniformMatrix3fv(draw.uniform("face_from_world"), 1, GL_FALSE, glm::value_ptr(rotation));
+  for (size_t ring = 0; ring < occluders.ring_count(); ++ring) {
+    glUniform1f(draw.uniform("depth_limit"), occluders.depth_limit_m(ring));
+    occluders.draw(ring, face, eye);
+  }
+}
+
+void Panorama::State::build_pyramid() {
+  reduce.use();
+  glUniform1i(reduce.uniform("depth"), 0);
+  int offset = 0, size = options.resolution;
+  int from_offset = 0;
+  for (int level = 1; level <= levels; ++level) {
+    const int next = std::max(size / 4, 1);
+    glUniform1i(reduce.uniform("from_depth"), level == 1 ? 1 : 0);
+    glUniform1i(reduce.uniform("from_offset"), from_offset);
+    glUniform1i(reduce.uniform("from_size"), size);
+    glUniform1i(reduce.uniform("to_offset"), offset);
+    glUniform1i(reduce.uniform("to_size"), next);
+    glDispatchCompute(groups(next, 8), groups(next, 8), face_count);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    from_offset = offset;
+    offset += face_count * next * next;
+    size = next;
+  }
+}
+
+void Panorama::State::test(const Program& program, size_t items, const glm::vec3& eye) {
+  if (items == 0) return;
+  program.use();
+  glUniform1i(program.uniform("depth"), 0);
+  glUniform3fv(program.uniform("eye"), 1, glm::value_ptr(eye));
+  glUniform3fv(program.uniform("half_extent"), 1, glm::value_ptr(options.half_extent_m));
+  glUniform1f(program.uniform("near"), near_m);
+  glUniform1i(program.uniform("resolution"), options.resolution);
+  glUniform1i(program.uniform("levels"), levels);
+  glUniform1i(program.uniform("objects"), static_cast<GLint>(objects));
+  glUniform1i(program.uniform("slices"), static_cast<GLint>(vertical_slices));
+  glUniform1i(program.uniform("first_slice_box"), static_cast<GLint>(objects));
+  glDispatchCompute(groups(items, 64), 1, 1);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+Panorama::Panorama(const std::vector<Box>& object_boxes, const SliceBoxes& slices, const std::vector<Ring>& rings,
+                   const PanoramaOptions& options)
+    : state_(std::make_unique<State>(rings, options)) {
+  State& s = *state_;
+  s.make_targets();
+  s.objects = object_boxes.size();
+  s.vertical_slices = slices.slices.size();
+  std::vector<Box> boxes = object_boxes;
+  boxes.insert(boxes.end(), slices.boxes.begin(), slices.boxes.end());
+  allocate(s.boxes, boxes_binding, boxes.size() * sizeof(Box), boxes.data());
+  static_assert(sizeof(VerticalSlice) == 3 * sizeof(uint32_t));
+  allocate(s.slices, slices_binding, slices.slices.size() * sizeof(VerticalSlice), slices.slices.data());
+  s.unseen.assign(s.objects, 0);
+  for (const VerticalSlice& slice : slices.slices) s.unseen.push_back(slice.heights);
+  s.read_back.resize(s.unseen.size());
+  allocate(s.answers, answers_binding, s.unseen.size() * sizeof(uint32_t), s.unseen.data());
+  allocate(s.seen_now, now_binding, s.objects * sizeof(uint32_t), nullptr);
+  s.occlusion.visible.resize(s.objects);
+  s.occlusion.occluded.resize(s.vertical_slices);
+
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_GREATER);
+  glClearDepth(0.0);
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  glEnable(GL_CLIP_DISTANCE0);
+  glEnable(GL_CULL_FACE);
+  glFrontFace(GL_CW);  // (right, up, forward) is a rotation of the world, and forward points away from the eye
+  glViewport(0, 0, options.resolution, options.resolution);
+}
+
+Panorama::~Panorama() = default;
+
+void Panorama::begin_cell() {
+  const State& s = *state_;
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, s.answers.id());
+  glBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(s.unseen.size() * sizeof(uint32_t)), s.unseen.data());
+}
+
+void Panorama::add_part(const glm::vec3& center) {
+  State& s = *state_;
+  s.draw.use();
+  glUniform3fv(s.draw.uniform("eye"), 1, glm::value_ptr(center));
+  glUniform1f(s.draw.uniform("near"), near_m);
+  for (int face = 0; face < face_count; ++face) s.draw_face(face, center);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);  // the faces are read now
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, s.depth.id());
+  s.build_pyramid();
+  s.test(s.test_objects, s.objects, center);
+  s.test(s.test_slices, s.vertical_slices, center);
+}
+
+const Occlusion& Panorama::finish_cell() {
+  State& s = *state_;
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, s.answers.id());
+  glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(s.read_back.size() * sizeof(uint32_t)), s.read_back.data());
+  std::copy_n(s.read_back.begin(), s.objects, s.occlusion.visible.begin());
+  std::copy(s.read_back.begin() + static_cast<std::ptrdiff_t>(s.objects), s.read_back.end(), s.occlusion.occluded.begin());
+  return s.occlusion;
+}
+
+std::vector<float> Panorama::read_face(int face) const {
+  const State& s = *state_;
+  const auto r = static_cast<size_t>(s.options.resolution);
+  std::vector<float> all(face_count * r * r);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, s.depth.id());
+  glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_DEPTH_COMPONENT, GL_FLOAT, all.data());
+  return {all.begin() + static_cast<std::ptrdiff_t>(face * r * r), all.begin() + static_cast<std::ptrdiff_t>((face + 1) * r * r)};
+}
+
+}  // namespace veduta

@@ -1,0 +1,169 @@
+// The shaders of the panorama.
+#pragma once
+
+namespace veduta::shader {
+
+/// Occluder boxes as instances. gl_Position = (right, up, near, forward): depth = near / forward, exact in float over the whole
+/// range. Clipped at the ring's depth limit: beyond it a pixel is wider than the ring's h (T3).
+inline constexpr const char* occluder_vertex = R"(#version 430 core
+layout(location = 0) in vec3 lower;
+layout(location = 1) in vec3 upper;
+uniform vec3 eye;
+uniform mat3 face_from_world;
+uniform float depth_limit;
+uniform float near;
+out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
+void main() {
+  bvec3 far_corner = bvec3(gl_VertexID & 1, gl_VertexID & 2, gl_VertexID & 4);
+  vec3 p = face_from_world * (mix(lower, upper, far_corner) - eye);
+  gl_Position = vec4(p.xy, near, p.z);
+  gl_ClipDistance[0] = depth_limit - p.z;
+}
+)";
+
+inline constexpr const char* occluder_fragment = R"(#version 430 core
+void main() {}
+)";
+
+/// One level of the depth pyramid: each texel keeps the farthest (smallest near / z) of 4 x 4 of the level below.
+inline constexpr const char* pyramid = R"(#version 430 core
+layout(local_size_x = 8, local_size_y = 8) in;
+uniform sampler2DArray depth;
+uniform int from_depth;      // 1: from the depth texture, 0: from the pyramid
+uniform int from_offset, from_size, to_offset, to_size;
+layout(std430, binding = 0) buffer Pyramid { float farthest[]; };
+void main() {
+  ivec3 to = ivec3(gl_GlobalInvocationID);
+  if (to.x >= to_size || to.y >= to_size) return;
+  int edge = min(4, from_size);
+  float least = 1e30;
+  for (int y = 0; y < edge; ++y) {
+    for (int x = 0; x < edge; ++x) {
+      ivec2 from = to.xy * 4 + ivec2(x, y);
+      float value = from_depth == 1 ? texelFetch(depth, ivec3(from, to.z), 0).r
+                                    : farthest[from_offset + (to.z * from_size + from.y) * from_size + from.x];
+      least = min(least, value);
+    }
+  }
+  farthest[to_offset + (to.z * to_size + to.y) * to_size + to.x] = least;
+}
+)";
+
+/// hidden(lower, upper): is a box hidden from every point of the part? Both methods below share it.
+inline constexpr const char* box_test = R"(#version 430 core
+layout(local_size_x = 64) in;
+uniform sampler2DArray depth;
+uniform vec3 eye, half_extent;
+uniform float near;
+uniform int resolution;
+uniform int levels;
+layout(std430, binding = 0) readonly buffer Pyramid { float farthest[]; };
+layout(std430, binding = 1) readonly buffer Boxes { float boxes[]; };
+
+// Is every texel of [lo, hi] of a level nearer than needed? (reversed depth: larger is nearer)
+bool all_nearer(int level, int face, ivec2 lo, ivec2 hi, float needed) {
+  if (level == 0) {
+    for (int y = lo.y; y <= hi.y; ++y)
+      for (int x = lo.x; x <= hi.x; ++x)
+        if (texelFetch(depth, ivec3(x, y, face), 0).r <= needed) return false;
+    return true;
+  }
+  int size = resolution, offset = 0;
+  for (int l = 1; l <= level; ++l) {
+    if (l > 1) offset += 5 * size * size;
+    size = max(size / 4, 1);
+  }
+  for (int y = lo.y; y <= hi.y; ++y)
+    for (int x = lo.x; x <= hi.x; ++x)
+      if (farthest[offset + (face * size + y) * size + x] <= needed) return false;
+  return true;
+}
+
+// Coarse levels first; a finer one is asked while it has few texels. To stop early errs towards visible.
+bool rectangle_hidden(int face, ivec2 lo, ivec2 hi, float needed) {
+  int extent = max(hi.x - lo.x, hi.y - lo.y);
+  int level = 0;
+  while (level < levels && (extent >> (2 * level)) > 3) ++level;
+  for (; level >= 0; --level) {
+    ivec2 a = lo >> (2 * level), b = hi >> (2 * level);
+    ivec2 n = b - a + 1;
+    if (n.x * n.y > 2048) return false;
+    if (all_nearer(level, face, a, b, needed)) return true;
+  }
+  return false;
+}
+
+// The rotations of cube_face.h, written out.
+vec3 to_face(int face, vec3 p) {
+  float s = (face & 1) == 0 ? 1.0 : -1.0;
+  int f = face >> 1;
+  if (f == 0) return vec3(s * p.y, p.z, s * p.x);
+  if (f == 1) return vec3(s * p.z, p.x, s * p.y);
+  return vec3(s * p.x, p.y, s * p.z);
+}
+
+bool hidden(int box) {
+  vec3 world_lower = vec3(boxes[6 * box], boxes[6 * box + 1], boxes[6 * box + 2]);
+  vec3 world_upper = vec3(boxes[6 * box + 3], boxes[6 * box + 4], boxes[6 * box + 5]);
+  if (any(greaterThan(world_lower, world_upper))) return true;  // no triangle, nothing to see
+  // T2: a box of half-size b is tested as one of max(b - e, 0) around the same centre.
+  vec3 center = 0.5 * (world_lower + world_upper) - eye;
+  vec3 half_size = max(0.5 * (world_upper - world_lower) - half_extent, vec3(0));
+  for (int face = 0; face < 6; ++face) {
+    vec3 p = to_face(face, center - half_size), q = to_face(face, center + half_size);
+    vec3 lo = min(p, q), hi = max(p, q);
+    float nearest = max(max(max(lo.x, -hi.x), max(lo.y, -hi.y)), max(lo.z, 0.0));
+    if (nearest > hi.z * 1.00001 + 1e-6) continue;     // not in this face
+    if (face == 5 || nearest < near) return false;     // below, or at the eye: visible
+    // Bounds of the projection of what lies between `nearest` and hi.z, clipped to the face, and one pixel outward.
+    vec2 left = vec2(lo.x < 0 ? lo.x / nearest : lo.x / hi.z, lo.y < 0 ? lo.y / nearest : lo.y / hi.z);
+    vec2 right = vec2(hi.x > 0 ? hi.x / nearest : hi.x / hi.z, hi.y > 0 ? hi.y / nearest : hi.y / hi.z);
+    vec2 scale = vec2(0.5 * resolution);
+    ivec2 first = ivec2(floor((clamp(left, -1.0, 1.0) + 1.0) * scale)) - 1;
+    ivec2 last = ivec2(floor((clamp(right, -1.0, 1.0) + 1.0) * scale)) + 1;
+    first = clamp(first, ivec2(0), ivec2(resolution - 1));
+    last = clamp(last, ivec2(0), ivec2(resolution - 1));
+    if (!rectangle_hidden(face, first, last, near / (nearest * 0.99999))) return false;
+  }
+  return true;
+}
+)";
+
+/// Whole objects: which does this part see?
+inline constexpr const char* object_test = R"(
+uniform int objects;
+layout(std430, binding = 2) buffer Answers { uint answers[]; };     // [0, objects): seen from some part
+layout(std430, binding = 4) buffer Now { uint seen_now[]; };        // seen from this part
+void main() {
+  int o = int(gl_GlobalInvocationID.x);
+  if (o >= objects) return;
+  bool seen = !hidden(o);
+  seen_now[o] = seen ? 1u : 0u;
+  if (seen) answers[o] = 1u;
+}
+)";
+
+/// Vertical slices of the objects that this part sees: how high is each occluded? The height is monotone, so it is bisected
+/// (in place of the steps of Algorithm 4.2); what no part hides stays.
+inline constexpr const char* slice_test = R"(
+uniform int objects, slices, first_slice_box;
+layout(std430, binding = 2) buffer Answers { uint answers[]; };     // [objects, objects + slices): occluded height
+layout(std430, binding = 3) readonly buffer Slices { uint slice[]; };  // object, first box, heights
+layout(std430, binding = 4) readonly buffer Now { uint seen_now[]; };
+void main() {
+  int s = int(gl_GlobalInvocationID.x);
+  if (s >= slices || seen_now[slice[3 * s]] == 0u) return;
+  uint known = answers[objects + s];  // hidden from the parts before
+  if (known == 0u) return;
+  int box = first_slice_box + int(slice[3 * s + 1]) - 1;  // box + h: the lowest h z-slices
+  uint low = 0u, high = known;
+  if (hidden(box + int(known))) return;
+  while (high - low > 1u) {  // low is hidden, high is not
+    uint middle = (low + high) / 2u;
+    if (hidden(box + int(middle))) low = middle; else high = middle;
+  }
+  answers[objects + s] = low;
+}
+)";
+
+}  // namespace veduta::shader

@@ -1,0 +1,104 @@
+#include "worker/prepare.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "scene/error.h"
+#include "scene/import.h"
+#include "worker/free_space.h"
+#include "worker/seed_grid.h"
+#include "worker/slices.h"
+#include "worker/view_cells.h"
+
+namespace veduta {
+namespace {
+
+constexpr int stages = 6;
+constexpr double ground_step_m = 1.0;
+
+WalkCells walk_options(const Settings& settings, const Scene& scene) {
+  WalkCells options;
+  options.size_m = settings.cells.size_m;
+  options.height_m = settings.cells.height_m;
+  options.eye_height_m = settings.navigation.eye_height_m;
+  if (settings.cells.region) {
+    const auto& r = *settings.cells.region;
+    options.region = {{r[0] - scene.origin[0], r[1] - scene.origin[1], r[2] - scene.origin[0], r[3] - scene.origin[1]}};
+  }
+  return options;
+}
+
+std::vector<Ring> shrink(const Settings& settings, const Scene& scene, const BitGrid& sealed, const std::vector<Box>& cells) {
+  ShrinkRequest request;
+  request.half_extent_m = part_half_extent(settings);
+  request.resolution = settings.occlusion.resolution;
+  const glm::vec3 extent = scene.bounds().upper - scene.bounds().lower;
+  request.reach_m = std::sqrt(extent.x * extent.x + extent.y * extent.y + extent.z * extent.z);
+  request.lowest_eye_m = cells.front().lower.z;
+  for (const Box& cell : cells) request.lowest_eye_m = std::min<double>(request.lowest_eye_m, cell.lower.z);
+  return SealedShrinker().shrink(sealed, request);
+}
+
+void note_rings(const std::vector<Ring>& rings, std::vector<std::string>& notes) {
+  for (const Ring& ring : rings) {
+    notes.push_back(fmt::format("ring h = {:.3f} m up to {:.0f} m: {} occluder boxes, {} triangles", ring.h_m, ring.depth_limit_m,
+                                ring.boxes.size(), 12 * ring.boxes.size()));
+  }
+}
+
+}  // namespace
+
+glm::vec3 part_half_extent(const Settings& settings) {
+  const double margin = settings.stereo.eye_margin_m;
+  const double horizontal = settings.cells.size_m / (2.0 * settings.occlusion.subdivide) + margin;
+  return {horizontal, horizontal, settings.cells.height_m / 2 + margin};
+}
+
+Prepared prepare(const Settings& settings, const StageProgress& progress) {
+  int done = 0;
+  const auto stage = [&](const char* name) {
+    if (progress) progress(name, done, stages);
+    ++done;
+  };
+  Prepared prepared;
+  City& city = prepared.city;
+
+  stage("import");
+  ImportResult imported = import_scene({settings.scene.model.begin(), settings.scene.model.end()}, {settings.scene.terrain_tile_m});
+  city.scene = std::move(imported.scene);
+  prepared.notes.push_back(fmt::format("{}: {} objects, {} triangles", imported.report.format, city.scene.objects.size(),
+                                       city.scene.triangles.size()));
+
+  stage("seed test");
+  const GridFrame frame = make_frame(city.scene.bounds(), settings.navigation.seed_size_m);
+  const SeedGrid seeds = seed_test(city.scene, frame);
+
+  stage("free space");
+  const BitGrid free = flood_fill(seeds);
+
+  stage("view-cells");
+  city.cells = walk_cells(seeds, free, walk_options(settings, city.scene));
+  if (city.cells.empty()) {
+    throw Error(ExitStatus::bad_input, "cells: there is no place to stand in: no free ground at eye height" +
+                                           std::string(settings.cells.region ? " in cells.region" : "") +
+                                           "; check units, up axis, navigation.seed_size and cells.region");
+  }
+  city.navigation.free = navigable_octree(free, city.cells);
+  city.navigation.ground = ground_heights(seeds, ground_step_m);
+  prepared.notes.push_back(fmt::format("grid {} x {} x {} voxels of {} m, {:.1f} % free; {} view-cells", frame.nx, frame.ny, frame.nz,
+                                       frame.size_m, 100.0 * static_cast<double>(free.count()) / (1.0 * frame.nx * frame.ny * frame.nz),
+                                       city.cells.size()));
+
+  stage("slices");
+  city.slices = choose_slices(city.scene, settings.slices.max);
+  city.triangle_slices = slice_triangles(city.scene, city.slices);
+
+  stage("shrink");
+  prepared.rings = shrink(settings, city.scene, sealed_space(free), city.cells);
+  note_rings(prepared.rings, prepared.notes);
+  if (progress) progress("prepared", stages, stages);
+  return prepared;
+}
+
+}  // namespace veduta

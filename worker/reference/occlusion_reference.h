@@ -1,0 +1,33 @@
+// The panorama as a slow CPU kernel: one ray a pixel against every box, in double; every pixel of an occludee looked at.
+#pragma once
+
+#include <vector>
+
+#include "worker/shrink.h"
+
+namespace veduta::reference {
+
+/// How strictly `hidden` asks. The product: one pixel outward and depths nearer by 1e-5.
+struct Strictness {
+  int outward_pixels = 1;
+  double nearer_by = 1e-5;
+};
+
+class Panorama {
+ public:
+  Panorama(const std::vector<Ring>& rings, int resolution, const glm::dvec3& eye, double near_m);
+
+  /// Planar depth at which the ray through the pixel's centre meets an occluder, m; infinity for none. Faces as cube_face.h.
+  double depth_m(int face, int x, int y) const { return depth_[(static_cast<size_t>(face) * size_ + y) * size_ + x]; }
+
+  /// Is a box (m) hidden from every point eye + [-e, e]? T2 applied.
+  bool hidden(const Box& box, const glm::dvec3& half_extent_m, const Strictness& strictness) const;
+
+ private:
+  int size_;
+  glm::dvec3 eye_;
+  double near_m_;
+  std::vector<double> depth_;
+};
+
+}  // namespace veduta::reference

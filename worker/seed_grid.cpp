@@ -1,0 +1,93 @@
+#include "worker/seed_grid.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "worker/clip.h"
+
+namespace veduta {
+namespace {
+
+/// Calls visit(i, z0, z1) for each column i of row j that the triangle touches, with its z-range there.
+template <typename Visit>
+void clip_to_row(const ClippedTriangle& triangle, const GridFrame& frame, int j, double margin, Visit visit) {
+  const ClippedTriangle row = clip_slab(triangle, 1, frame.y(j) - margin, frame.y(j + 1) + margin);
+  if (row.count == 0) return;
+  double x0 = row.corner[0].x, x1 = x0;
+  for (int n = 1; n < row.count; ++n) x0 = std::min(x0, row.corner[n].x), x1 = std::max(x1, row.corner[n].x);
+  for (int i = frame.column_x(x0 - margin); i <= frame.column_x(x1 + margin); ++i) {
+    const ClippedTriangle cell = clip_slab(row, 0, frame.x(i) - margin, frame.x(i + 1) + margin);
+    if (cell.count == 0) continue;
+    double z0 = cell.corner[0].z, z1 = z0;
+    for (int n = 1; n < cell.count; ++n) z0 = std::min(z0, cell.corner[n].z), z1 = std::max(z1, cell.corner[n].z);
+    visit(i, z0, z1);
+  }
+}
+
+}  // namespace
+
+SeedGrid::SeedGrid(const GridFrame& frame)
+    : occupied(frame),
+      ground_low(static_cast<size_t>(frame.nx) * frame.ny, std::numeric_limits<float>::quiet_NaN()),
+      ground_high(ground_low) {}
+
+SeedGrid seed_test(const Scene& scene, const GridFrame& frame) {
+  SeedGrid grid(frame);
+  const double margin = frame.size_m * 1e-3;
+
+  // Triangles by the band of rows that they touch, so that bands run in parallel without sharing a column.
+  constexpr int band_rows = 64;
+  const int bands = (frame.ny + band_rows - 1) / band_rows;
+  struct Item {
+    uint32_t triangle;
+    bool terrain;
+  };
+  std::vector<std::vector<Item>> items(bands);
+  bool any_terrain = false;
+  for (const Object& object : scene.objects) {
+    const bool terrain = object.kind == Kind::terrain;
+    any_terrain |= terrain;
+    for (uint64_t t = object.triangle_begin; t < object.triangle_end; ++t) {
+      const glm::uvec3 v = scene.triangles[t];
+      const double y0 = std::min({scene.vertices[v.x].y, scene.vertices[v.y].y, scene.vertices[v.z].y});
+      const double y1 = std::max({scene.vertices[v.x].y, scene.vertices[v.y].y, scene.vertices[v.z].y});
+      for (int b = frame.column_y(y0 - margin) / band_rows; b <= frame.column_y(y1 + margin) / band_rows; ++b) {
+        items[b].push_back({static_cast<uint32_t>(t), terrain});
+      }
+    }
+  }
+
+  tbb::parallel_for(0, bands, [&](int b) {
+    for (const Item& item : items[b]) {
+      const ClippedTriangle triangle = triangle_of(scene, item.triangle);
+      double y0 = std::numeric_limits<double>::infinity(), y1 = -y0;
+      for (int n = 0; n < 3; ++n) {
+        y0 = std::min(y0, triangle.corner[n].y), y1 = std::max(y1, triangle.corner[n].y);
+      }
+      const int first = std::max(frame.column_y(y0 - margin), b * band_rows);
+      const int last = std::min(frame.column_y(y1 + margin), (b + 1) * band_rows - 1);
+      for (int j = first; j <= last; ++j) {
+        clip_to_row(triangle, frame, j, margin, [&](int i, double z0, double z1) {
+          grid.occupied.set_run(i, j, frame.layer(z0 - margin), frame.layer(z1 + margin));
+          if (!item.terrain) return;
+          const size_t c = static_cast<size_t>(j) * frame.nx + i;
+          grid.ground_low[c] = std::fmin(grid.ground_low[c], static_cast<float>(z0));
+          grid.ground_high[c] = std::fmax(grid.ground_high[c], static_cast<float>(z1));
+        });
+      }
+    }
+  });
+
+  if (!any_terrain) {
+    const float lowest = scene.bounds().lower.z;
+    std::fill(grid.ground_low.begin(), grid.ground_low.end(), lowest);
+    std::fill(grid.ground_high.begin(), grid.ground_high.end(), lowest);
+  }
+  return grid;
+}
+
+}  // namespace veduta

@@ -1,0 +1,23 @@
+// The seed test (thesis §3.1.2): which voxels a triangle touches.
+#pragma once
+
+#include "scene/scene.h"
+#include "worker/bit_grid.h"
+
+namespace veduta {
+
+/// What the seed test leaves: the voxels that a triangle touches, and the ground under every column.
+struct SeedGrid {
+  BitGrid occupied;
+  std::vector<float> ground_low;   ///< [ny * nx] lowest terrain in the column, m; NaN where there is none
+  std::vector<float> ground_high;  ///< [ny * nx] highest terrain in the column, m; NaN where there is none
+  explicit SeedGrid(const GridFrame& frame);
+};
+
+/// Marks every voxel that a closed triangle of the scene touches. Exact up to a margin of a thousandth of a voxel, which
+/// errs towards occupied. A scene without terrain has its ground at its lowest z.
+/// The thesis tests all pairs of triangles and cells and calls it slow (§7.2); here each triangle is clipped to the columns
+/// that its bounds cover, and the z-range of what is left is set as a run: O(voxels touched / 64).
+SeedGrid seed_test(const Scene& scene, const GridFrame& frame);
+
+}  // namespace veduta

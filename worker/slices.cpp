@@ -1,0 +1,125 @@
+#include "worker/slices.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "worker/clip.h"
+
+namespace veduta {
+namespace {
+
+/// The planes between the slices of one axis of an object. Triangles are assigned and clipped by the same planes.
+struct Planes {
+  double lower, step;
+  int count;
+  Planes(double lower_m, double upper_m, int n) : lower(lower_m), step((upper_m - lower_m) / n), count(n) {}
+  int slice(double value) const {
+    return step > 0 ? std::clamp(static_cast<int>(std::floor((value - lower) / step)), 0, count - 1) : 0;
+  }
+};
+
+/// The part of the polygon in slices [first, last] of an axis. The slab is a little thicker than the slices, so that rounding
+/// makes test boxes larger, never smaller: an occludee that is too large errs towards visible.
+ClippedTriangle clip_slices(const ClippedTriangle& in, int axis, const Planes& planes, int first, int last) {
+  const double margin = 1e-4 * planes.step + 1e-6;
+  return clip_slab(in, axis, planes.lower + first * planes.step - margin, planes.lower + (last + 1) * planes.step + margin);
+}
+
+void extend(Box& box, const ClippedTriangle& polygon) {
+  for (int n = 0; n < polygon.count; ++n) {
+    glm::vec3 lower, upper;  // float boxes around double corners: outwards
+    for (int k = 0; k < 3; ++k) {
+      const float value = static_cast<float>(polygon.corner[n][k]);
+      lower[k] = std::nextafter(value, -INFINITY), upper[k] = std::nextafter(value, INFINITY);
+    }
+    box.extend(lower), box.extend(upper);
+  }
+}
+
+std::array<Planes, 3> planes_of(const Scene& scene, const Object& object, const SliceCounts& n) {
+  const Box b = scene.bounds(object);
+  return {Planes(b.lower.x, b.upper.x, n.x), Planes(b.lower.y, b.upper.y, n.y), Planes(b.lower.z, b.upper.z, n.z)};
+}
+
+/// Fills the boxes of one object: for each vertical slice the box of each level, then cumulated upwards.
+void fill_boxes(const Scene& scene, uint32_t o, const SliceCounts& n, const std::vector<TriangleSlices>& touched,
+                const VerticalSlice* slice, Box* all) {
+  const Object& object = scene.objects[o];
+  const std::array<Planes, 3> planes = planes_of(scene, object, n);
+  for (uint64_t t = object.triangle_begin; t < object.triangle_end; ++t) {
+    const ClippedTriangle triangle = triangle_of(scene, t);
+    const TriangleSlices& s = touched[t];
+    for (int axis = 0; axis < 2; ++axis) {
+      const int first = (axis == 0 ? s.x_first : s.y_first) - 1, last = (axis == 0 ? s.x_last : s.y_last) - 1;
+      for (int i = first; i <= last; ++i) {
+        const ClippedTriangle strip = clip_slices(triangle, axis, planes[axis], i, i);
+        for (int h = s.z_first - 1; h <= s.z_last - 1; ++h) {
+          const VerticalSlice& vertical = slice[axis == 0 ? i : n.x + i];
+          extend(all[vertical.first_box + h], clip_slices(strip, 2, planes[2], h, h));
+        }
+      }
+    }
+  }
+  for (int i = 0; i < n.x + n.y; ++i) {
+    for (uint32_t h = 1; h < slice[i].heights; ++h) all[slice[i].first_box + h].extend(all[slice[i].first_box + h - 1]);
+  }
+}
+
+}  // namespace
+
+std::vector<SliceCounts> choose_slices(const Scene& scene, int most, double slice_size_m) {
+  std::vector<SliceCounts> slices;
+  const auto count = [&](float extent) {
+    return static_cast<uint8_t>(std::clamp(std::lround(extent / slice_size_m), 1L, static_cast<long>(most)));
+  };
+  for (const Object& object : scene.objects) {
+    const Box b = scene.bounds(object);
+    slices.push_back({count(b.upper.x - b.lower.x), count(b.upper.y - b.lower.y), count(b.upper.z - b.lower.z)});
+  }
+  return slices;
+}
+
+std::vector<TriangleSlices> slice_triangles(const Scene& scene, const std::vector<SliceCounts>& slices) {
+  std::vector<TriangleSlices> touched(scene.triangles.size());
+  for (size_t o = 0; o < scene.objects.size(); ++o) {
+    const Object& object = scene.objects[o];
+    const std::array<Planes, 3> planes = planes_of(scene, object, slices[o]);
+    for (uint64_t t = object.triangle_begin; t < object.triangle_end; ++t) {
+      const ClippedTriangle triangle = triangle_of(scene, t);
+      std::array<uint8_t, 6> range{};
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto [low, high] = std::minmax({triangle.corner[0][axis], triangle.corner[1][axis], triangle.corner[2][axis]});
+        range[2 * axis] = static_cast<uint8_t>(planes[axis].slice(low) + 1);
+        range[2 * axis + 1] = static_cast<uint8_t>(planes[axis].slice(high) + 1);
+      }
+      touched[t] = {range[0], range[1], range[2], range[3], range[4], range[5]};
+    }
+  }
+  return touched;
+}
+
+SliceBoxes slice_boxes(const Scene& scene, const std::vector<SliceCounts>& slices,
+                       const std::vector<TriangleSlices>& triangle_slices) {
+  SliceBoxes result;
+  result.object_slice_begin.push_back(0);
+  uint64_t boxes = 0;
+  for (uint32_t o = 0; o < scene.objects.size(); ++o) {
+    for (int i = 0; i < slices[o].x + slices[o].y; ++i) {
+      result.slices.push_back({o, static_cast<uint32_t>(boxes), slices[o].z});
+      boxes += slices[o].z;
+    }
+    result.object_slice_begin.push_back(static_cast<uint32_t>(result.slices.size()));
+  }
+  if (boxes > UINT32_MAX) throw std::length_error("more than 2^32 slice boxes");
+  result.boxes.resize(boxes);
+  tbb::parallel_for(uint32_t{0}, static_cast<uint32_t>(scene.objects.size()), [&](uint32_t o) {
+    fill_boxes(scene, o, slices[o], triangle_slices, &result.slices[result.object_slice_begin[o]], result.boxes.data());
+  });
+  return result;
+}
+
+}  // namespace veduta

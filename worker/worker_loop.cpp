@@ -1,0 +1,102 @@
+#include "worker/worker_loop.h"
+
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "pvs/pvs_file.h"
+#include "pvs/run_paths.h"
+#include "pvs/shard.h"
+#include "scene/error.h"
+#include "worker/baker.h"
+#include "worker/prepare.h"
+#include "worker/protocol.h"
+
+namespace veduta {
+namespace {
+
+using nlohmann::json;
+
+class Worker {
+ public:
+  Worker(int output, std::string gpu) : output_(output), gpu_(std::move(gpu)) {}
+
+  void hello() { say(Verb::hello, {{"pid", getpid()}, {"version", protocol_version}}); }
+
+  /// \return false to leave.
+  bool answer(const Frame& frame) {
+    if (frame.verb == Verb::quit) return false;
+    const json request = json::parse(frame.text(), nullptr, false);
+    if (request.is_discarded()) throw Error(ExitStatus::defect, "worker: a request is not JSON");
+    switch (frame.verb) {
+      case Verb::prepare: prepare_city(request.at("directory").get<std::string>()); break;
+      case Verb::open: open_city(request.at("directory").get<std::string>()); break;
+      case Verb::bake: bake(request.at("cells").get<std::vector<uint32_t>>()); break;
+      default: throw Error(ExitStatus::defect, "worker: unknown verb " + std::to_string(static_cast<uint32_t>(frame.verb)));
+    }
+    return true;
+  }
+
+  void fail(const Error& error) {
+    say(Verb::failed, {{"status", static_cast<int>(error.status())}, {"message", error.what()}});
+  }
+
+ private:
+  void say(Verb verb, const json& payload) { write_frame(output_, encode_frame(verb, payload.dump())); }
+
+  void prepare_city(const std::string& directory) {
+    const Prepared prepared = prepare(load_settings(RunPaths{directory}.settings()), [&](const std::string& stage, int done, int total) {
+      say(Verb::progress, {{"stage", stage}, {"done", done}, {"total", total}});
+    });
+    write_prepared(directory, prepared);
+    const City& city = prepared.city;
+    say(Verb::prepared, {{"cells", city.cells.size()}, {"objects", city.scene.objects.size()},
+                         {"triangles", city.scene.triangles.size()}, {"notes", prepared.notes}});
+  }
+
+  void open_city(const std::string& directory) {
+    baker_.emplace(read_city(RunPaths{directory}.city()), read_occluders(directory), load_settings(RunPaths{directory}.settings()), gpu_);
+    say(Verb::opened, {{"renderer", baker_->renderer()}, {"cells", baker_->cell_count()}});
+  }
+
+  void bake(const std::vector<uint32_t>& cells) {
+    if (!baker_) throw Error(ExitStatus::defect, "worker: asked to bake before a city was opened");
+    for (const uint32_t cell : cells) {
+      if (cell >= baker_->cell_count()) throw Error(ExitStatus::defect, "worker: there is no cell " + std::to_string(cell));
+      const std::vector<std::byte> record = encode(baker_->bake(cell));
+      write_frame(output_, encode_frame(Verb::cell_baked, record.data(), record.size()));
+    }
+    say(Verb::lease_done, json::object());
+  }
+
+  int output_;
+  std::string gpu_;
+  std::optional<Baker> baker_;
+};
+
+}  // namespace
+
+int run_worker(int input, int output, const std::string& gpu) {
+  Worker worker(output, gpu);
+  try {
+    try {
+      worker.hello();
+      while (const std::optional<Frame> frame = read_frame(input)) {
+        if (!worker.answer(*frame)) break;
+      }
+      return static_cast<int>(ExitStatus::done);
+    } catch (const Error&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw Error(ExitStatus::input_output, "worker: out of memory; use fewer workers a host or a larger navigation.seed_size");
+    } catch (const std::exception& error) {
+      throw Error(ExitStatus::defect, std::string("worker: ") + error.what());
+    }
+  } catch (const Error& error) {
+    worker.fail(error);
+    return static_cast<int>(error.status());
+  }
+}
+
+}  // namespace veduta

@@ -1,0 +1,39 @@
+// veduta-worker: one process per GPU or core. Started by the farm; speaks frames over its standard streams.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+
+#include "gl/egl_context.h"
+#include "scene/error.h"
+#include "worker/worker_loop.h"
+
+int main(int argc, char** argv) {
+  CLI::App app{"Veduta's worker: bakes cells that arrive as frames on standard input. Started by `veduta bake`."};
+  std::string gpu = "auto";
+  bool probe = false;
+  app.add_option("--gpu", gpu, "EGL device: auto, software or a number")->capture_default_str();
+  app.add_flag("--probe", probe, "Print one line per EGL device and the renderer that --gpu chooses, then leave");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(veduta::ExitStatus::usage);
+  }
+  std::signal(SIGPIPE, SIG_IGN);  // a shepherd that is gone shows as a write error
+  try {
+    if (!probe) {
+      // Frames go to a private copy of standard output: whatever a driver prints there must not get between them.
+      const int frames = dup(STDOUT_FILENO);
+      dup2(STDERR_FILENO, STDOUT_FILENO);
+      return veduta::run_worker(STDIN_FILENO, frames, gpu);
+    }
+    for (const std::string& device : veduta::list_devices()) std::printf("%s\n", device.c_str());
+    const veduta::EglContext context(gpu);
+    std::printf("%s: %s, OpenGL %s\n", gpu.c_str(), context.renderer().c_str(), context.version().c_str());
+    return 0;
+  } catch (const veduta::Error& error) {
+    std::fprintf(stderr, "veduta-worker: %s\n", error.what());
+    return static_cast<int>(error.status());
+  }
+}
