@@ -134,8 +134,6 @@ std::optional<Error> coordinate(Transport& transport, Coordinator& coordinator, 
 void claim(const RunPaths& run, const Settings& settings, const Fingerprint& fingerprint) {
   if (const auto stored = read_text_file(run.fingerprint()))
     require_same_job(run.directory, *stored, fingerprint);
-  std::error_code ignored;
-  std::filesystem::remove(run.report(), ignored);  // it is there only when a bake is complete
   write_file_atomically(run.fingerprint(), fingerprint.text());
   write_file_atomically(run.settings(), to_toml(settings));
 }

@@ -75,12 +75,16 @@ void print_summary(const BakeEnd& end, const json& report) {
   const BakeTally& tally = end.tally;
   std::string renderers;
   for (const auto& renderer : tally.renderers) renderers += (renderers.empty() ? "" : "; ") + renderer;
-  std::cout << fmt::format(
-      "{} cells ({} in this run, {} all visible), {} retries, {} rank{} x {} workers, {}\n", tally.city.cells,
-      tally.done - tally.resumed, tally.all_visible, tally.retries, end.ranks, end.ranks == 1 ? "" : "s",
-      end.workers_per_rank, renderers);
+  const auto plural = [](uint64_t count, const char* one, const char* many) {
+    return fmt::format("{} {}", count, count == 1 ? one : many);
+  };
+  std::cout << fmt::format("{} ({} in this run, {} all visible), {}, {} x {}, {}\n",
+                           plural(tally.city.cells, "cell", "cells"), tally.done - tally.resumed,
+                           tally.all_visible, plural(tally.retries, "retry", "retries"),
+                           plural(static_cast<uint64_t>(end.ranks), "rank", "ranks"),
+                           plural(end.workers_per_rank, "worker", "workers"), renderers);
   std::cout << fmt::format("prepared in {:.1f} s, baked in {:.1f} s, {:.1f} s in all\n", tally.prepare_s,
-                           tally.bake_s, report["elapsed_s"].get<double>());
+                           tally.bake_s, seconds_since(end.began));
   if (const json& merged = report["merge"]; merged.is_object())
     std::cout << fmt::format("{} ({}), digest {}\n", end.run.result().string(),
                              bytes_text(merged.value("bytes", uint64_t{0})),
@@ -101,7 +105,13 @@ int finish_bake(const BakeEnd& end, bool merge, RunLog& log) {
                             end.command_line));
   }
   const json merged = merge ? merge_in_child(end) : json();
-  const json report = report_of(end, merged);
+  json report = report_of(end, merged);
+  // A bake that had nothing left to do keeps what the one that did it measured.
+  json before = json::parse(read_text_file(end.run.report()).value_or(""), nullptr, false);
+  if (tally.resumed == tally.city.cells && before.is_object()) {
+    before["merge"] = report["merge"];
+    report = before;
+  }
   write_file_atomically(end.run.report(), report.dump(2) + "\n");
   log.info("complete", report);
   print_summary(end, report);

@@ -47,16 +47,20 @@ std::optional<LeaseBook::Range> LeaseBook::steal(WorkerId thief, double now_s) c
   double oldest_s = now_s;
   for (const auto& [id, lease] : granted_) {
     if (lease.worker == thief) continue;
-    uint32_t left = 0, first = lease.range.end;
-    // Workers answer in order, so the unfinished cells that nobody else holds are a tail of the lease.
-    for (uint32_t cell = lease.range.end; cell-- > lease.range.begin && !done_[cell] && holders_[cell] == 1;)
-      ++left, first = cell;
+    // Workers answer in order: what nobody else holds of the unfinished cells is one run, before what was
+    // stolen already.
+    const auto open = [&](uint32_t cell) { return !done_[cell] && holders_[cell] == 1; };
+    uint32_t last = lease.range.end;
+    while (last > lease.range.begin && !open(last - 1)) --last;
+    uint32_t first = last;
+    while (first > lease.range.begin && open(first - 1)) --first;
+    const uint32_t left = last - first;
     if (left == 0) continue;
     // The last cell is worth a second worker only when it takes much longer than cells do.
     if (left == 1 && now_s - lease.last_sign_s < 0.5 + 3 * cell_s_) continue;
     if (left > most || (left == most && lease.last_sign_s < oldest_s)) {
       most = left, oldest_s = lease.last_sign_s;
-      best = Range{first + left / 2, lease.range.end, lease.range.kills};
+      best = Range{first + left / 2, last, lease.range.kills};
     }
   }
   return best;
