@@ -23,9 +23,13 @@ namespace {
 constexpr uint32_t unset = std::numeric_limits<uint32_t>::max();
 // Mending crossings costs up to the square of the corners; beyond this a polygon is noise, not a surface.
 constexpr size_t most_corners_to_mend = 4096;
+// Each pass of the rings through a point walks around the edges that meet there: a hub that is passed n times
+// costs n^2.
+constexpr uint64_t most_hub_steps = 10'000'000;
 
 struct CornerInfo {
   uint32_t index = unset;  // into the points; unset for a crossing
+  uint32_t passes = 0;     // of the rings
 };
 
 struct FaceInfo {
@@ -74,6 +78,8 @@ class Mesh {
       const size_t before = cdt_.number_of_vertices();
       const Vertex vertex = cdt_.insert(Point(p[projection_.u], p[projection_.v]), hint);
       if (cdt_.number_of_vertices() > before) vertex->info().index = index;
+      hub_steps_ += vertex->info().passes++;
+      if (hub_steps_ > most_hub_steps) throw std::length_error("a corner is passed too often");
       hint = vertex->face();
       handles.push_back(vertex);
     }
@@ -145,6 +151,7 @@ class Mesh {
 
   const Projection& projection_;
   Cdt cdt_;
+  uint64_t hub_steps_ = 0;
   std::vector<std::pair<Vertex, Vertex>> edges_;
 };
 

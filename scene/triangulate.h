@@ -12,7 +12,7 @@ namespace veduta {
 enum class Triangulation {
   done,
   degenerate,  ///< fewer than three points, or all on a line
-  impossible,  ///< edges that cross too often to be mended
+  impossible,  ///< edges that cross, or pass one point, too often
 };
 
 /// Triangulates the polygon whose rings are [ring_end[r-1], ring_end[r]) of `points` (coordinates in m,

@@ -127,6 +127,17 @@ TEST(Triangulate, AScribbleIsRefusedAndLeavesNothingBehind) {
   EXPECT_TRUE(outcome.triangles.empty());
 }
 
+TEST(Triangulate, AHubThatIsPassedThousandsOfTimesIsRefusedQuickly) {
+  std::vector<glm::dvec3> ring;
+  for (int i = 0; i < 10000; ++i) {
+    const double angle = 6.283185307179586 * i / 10000;
+    ring.emplace_back(0, 0, 0);
+    ring.emplace_back(std::cos(angle), std::sin(angle), 0);
+    ring.emplace_back(std::cos(angle + 1e-4), std::sin(angle + 1e-4), 0);
+  }
+  EXPECT_EQ(run({ring}).answer, Triangulation::impossible);
+}
+
 TEST(Triangulate, RandomStarsWithHolesKeepTheirArea) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> radius(5, 10);
