@@ -69,8 +69,8 @@ class Assembler {
     for (const RawObject& object : model.objects) add(object);
     if (result_.scene.triangles.size() == before)
       throw bad_input(model.file, "whole file",
-                      fmt::format("none of its {} polygons has an area that is left after rounding; check "
-                                  "the unit and the coordinates",
+                      fmt::format("none of its {} polygons gives a triangle (no area, or edges that cross "
+                                  "too often); check the unit and the coordinates",
                                   model.polygons.size()));
   }
 
