@@ -1,72 +1,18 @@
 #include "merge/merge.h"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
 
-#include <csignal>
-
-#include "pvs/pvs_file.h"
-#include "pvs/shard.h"
-#include "scene/error.h"
-#include "tests/pvs/small_city.h"
+#include "tests/merge/run_directory.h"
 
 namespace veduta {
 namespace {
 
+using test::job;
+using test::record;
+using test::RunDirectory;
 using test::small_city;
 using test::small_row;
-using test::TemporaryDirectory;
-
-const std::string job = "0123456789abcdef";
-
-CellRecord record(uint32_t cell) {
-  const BakedCell baked = small_row(cell);
-  return {cell, baked.status, baked.bake_us, baked.row};
-}
-
-/// A run directory with a city of 7 cells and no shard yet.
-struct RunDirectory {
-  TemporaryDirectory directory;
-  RunPaths paths{directory.path()};
-
-  explicit RunDirectory(const City& city = small_city()) {
-    std::filesystem::create_directories(paths.prepared());
-    std::filesystem::create_directories(paths.shards());
-    test::write_bytes(paths.fingerprint(), job + "\nsettings 1234\n");
-    test::write_bytes(paths.settings(), "# settings\n");
-    write_city(paths.city(), city);
-  }
-  void shard(const std::string& name, const std::vector<CellRecord>& records,
-             const std::string& renderer = "llvmpipe") const {
-    ShardWriter writer(paths.shards() / name, job, renderer);
-    for (const CellRecord& r : records) writer.append(r);
-  }
-  void whole() const {
-    shard("b", {record(0), record(5), record(2)}, "a GPU");
-    shard("a", {record(6), record(1), record(4), record(3)});
-  }
-  Journal journal() const { return read_journal(paths, job, 7); }
-  /// Names in the run directory.
-  std::vector<std::string> names() const {
-    std::vector<std::string> out;
-    for (const auto& entry : std::filesystem::directory_iterator(directory.path()))
-      out.push_back(entry.path().filename().string());
-    std::sort(out.begin(), out.end());
-    return out;
-  }
-};
-
-ExitStatus status_of(const std::function<void()>& action, std::string* message = nullptr) {
-  try {
-    action();
-  } catch (const Error& error) {
-    if (message) *message = error.what();
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
-    return error.status();
-  }
-  return ExitStatus::done;
-}
+using test::status_of;
 
 TEST(Merge, InterleavedShardsGiveTheFileOfOneWriter) {
   RunDirectory run;
@@ -184,46 +130,6 @@ TEST(Merge, RefusesForeignShardsAndDirectories) {
   ShardWriter(run.paths.shards() / "d", "another job", "");
   EXPECT_EQ(status_of([&] { merge_run(run.paths, {}, false); }), ExitStatus::other_job);
   EXPECT_EQ(status_of([&] { merge_run({run.directory / "none"}, {}, false); }), ExitStatus::bad_input);
-}
-
-TEST(Merge, UnwritableOutputLeavesTheOldFile) {
-  RunDirectory run;
-  run.whole();
-  merge_run(run.paths, {}, false);
-  const std::string bytes = test::read_bytes(run.paths.result());
-  const auto names = run.names();
-  EXPECT_EQ(status_of([&] { merge_run(run.paths, run.paths.result() / "under.h5", false); }),
-            ExitStatus::input_output);
-  EXPECT_EQ(status_of([&] { merge_run(run.paths, run.directory / "none" / "a.h5", false); }),
-            ExitStatus::input_output);
-  EXPECT_EQ(test::read_bytes(run.paths.result()), bytes);
-  EXPECT_EQ(run.names(), names);
-}
-
-/// A limit on the file size stands in for a full disk; it cannot be taken back, hence the child.
-TEST(Merge, FullDiskIsAnErrorAndLeavesTheOldFile) {
-  const City city = small_city(3000, 7);
-  for (const bool deadly : {true, false}) {  // SIGXFSZ kills, or writes fail
-    RunDirectory run(city);
-    run.whole();
-    test::write_bytes(run.paths.result(), "the old file");
-    const auto names = run.names();
-    const pid_t child = ::fork();
-    if (child == 0) {
-      std::signal(SIGXFSZ, deadly ? SIG_DFL : SIG_IGN);
-      const rlimit limit{20000, 20000}, no_core{0, 0};
-      ::setrlimit(RLIMIT_FSIZE, &limit);
-      ::setrlimit(RLIMIT_CORE, &no_core);
-      ::_exit(static_cast<int>(status_of([&] { merge_run(run.paths, {}, false); })));
-    }
-    int state = 0;
-    ::waitpid(child, &state, 0);
-    ASSERT_TRUE(WIFEXITED(state)) << deadly;
-    EXPECT_EQ(WEXITSTATUS(state), static_cast<int>(ExitStatus::input_output)) << deadly;
-    EXPECT_EQ(test::read_bytes(run.paths.result()), "the old file");
-    EXPECT_EQ(run.names(), names);
-    EXPECT_EQ(merge_run(run.paths, {}, false).baked, 7u);  // with room again, it works
-  }
 }
 
 }  // namespace

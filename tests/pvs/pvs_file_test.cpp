@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "pvs/digest.h"
-#include "pvs/hdf5_handle.h"
 #include "scene/error.h"
 #include "tests/pvs/small_city.h"
 
@@ -13,20 +12,11 @@ namespace {
 using test::small_city;
 using test::small_header;
 using test::small_row;
+using test::status_of;
 using test::TemporaryDirectory;
 
 std::string write_small(const std::filesystem::path& file) {
   return write_pvs(file, small_city(), small_header(), small_row);
-}
-
-ExitStatus status_of(const std::function<void()>& action, std::string* message = nullptr) {
-  try {
-    action();
-  } catch (const Error& error) {
-    if (message) *message = error.what();
-    return error.status();
-  }
-  return ExitStatus::done;
 }
 
 void expect_same(const City& a, const City& b) {
@@ -181,57 +171,6 @@ TEST(PvsFile, PreparedCityRoundTripsAndIsNoResult) {
   EXPECT_NE(message.find("veduta-city"), std::string::npos) << message;
 }
 
-TEST(PvsFile, WriterRefusesRowsThatItsReaderWould) {
-  TemporaryDirectory directory;
-  const std::vector<PvsRow> wrong{{{6, completely_visible}},                           // no such object
-                                  {{2, completely_visible}, {1, completely_visible}},  // not ascending
-                                  {{1, completely_visible}, {1, completely_visible}},
-                                  {{0, {0, 0, 0}}},
-                                  {{0, {0, 0, 3}}},  // two z-slices
-                                  {{0, {0, 0, -1}}},
-                                  {{0, {5, 0, 0}}},   // four x-slices
-                                  {{0, {-4, 0, 0}}},  // from the fifth on
-                                  {{0, {1, 1, 0}}}};
-  for (size_t i = 0; i < wrong.size(); ++i) {
-    const auto source = [&](uint32_t c) {
-      return BakedCell{CellStatus::baked, 0, c == 4 ? wrong[i] : PvsRow{}};
-    };
-    EXPECT_EQ(status_of([&] { write_pvs(directory / "a.h5", small_city(), {}, source); }), ExitStatus::defect)
-        << i;
-  }
-  EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
-}
-
-TEST(PvsFile, WriterRefusesCitiesThatItsReaderWould) {
-  TemporaryDirectory directory;
-  const std::vector<std::function<void(City&)>> spoil{
-      [](City& c) { c.scene.vertices[3].y = NAN; },
-      [](City& c) { c.scene.triangles[1].z = 15; },
-      [](City& c) { c.scene.material.pop_back(); },
-      [](City& c) { c.scene.objects[2].triangle_begin = 3; },
-      [](City& c) { c.scene.objects.back().triangle_end = 99; },
-      [](City& c) { c.slices[1].y = 0; },
-      [](City& c) { c.slices[1].x = 128; },
-      [](City& c) { c.triangle_slices[1].x_last = 5; },
-      [](City& c) { c.triangle_slices[1] = {2, 1, 1, 1, 1, 1}; },
-      [](City& c) { c.scene.parts[0].object = 1; },
-      [](City& c) { std::swap(c.cells[1].lower, c.cells[1].upper); },
-      [](City& c) { c.cells[1].upper.x = INFINITY; },
-      [](City& c) { c.navigation.free.first_child[0] = 0; },
-      [](City& c) { c.navigation.free.first_child[0] = 2; },
-      [](City& c) { c.navigation.free.depth = 1; },
-      [](City& c) { c.navigation.free.states[1] = 3; },
-      [](City& c) { c.navigation.ground.nx = 4; },
-      [](City& c) { c.scene.objects[0].name = std::string("a\0b", 3); },
-  };
-  for (size_t i = 0; i < spoil.size(); ++i) {
-    City city = small_city();
-    spoil[i](city);
-    EXPECT_EQ(status_of([&] { write_pvs(directory / "a.h5", city, {}, small_row); }), ExitStatus::defect)
-        << i;
-  }
-}
-
 TEST(PvsFile, FailureLeavesTheOldFileAndNothingElse) {
   TemporaryDirectory directory;
   write_small(directory / "a.h5");
@@ -257,68 +196,6 @@ TEST(PvsFile, SaysWhatIsWrongWithAFile) {
   EXPECT_EQ(status_of([&] { read_pvs(directory.path()); }), ExitStatus::bad_input);
   test::write_bytes(directory / "text.h5", "no HDF5 at all");
   EXPECT_EQ(status_of([&] { read_pvs(directory / "text.h5"); }), ExitStatus::bad_input);
-}
-
-/// Opens a whole file and spoils it with HDF5's own means.
-std::string message_after(const std::function<void(hid_t)>& spoil) {
-  TemporaryDirectory directory;
-  write_small(directory / "a.h5");
-  const hid_t file = H5Fopen((directory / "a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-  EXPECT_GE(file, 0);
-  spoil(file);
-  EXPECT_GE(H5Fclose(file), 0);
-  std::string message;
-  EXPECT_EQ(status_of([&] { read_pvs(directory / "a.h5"); }, &message), ExitStatus::bad_input) << message;
-  EXPECT_EQ(message.find('\n'), std::string::npos);
-  return message;
-}
-
-TEST(PvsFile, NamesTheVersion) {
-  const std::string message = message_after([](hid_t file) {
-    const hid_t attribute = H5Aopen(file, "version", H5P_DEFAULT);
-    const uint32_t version = 2;
-    H5Awrite(attribute, H5T_NATIVE_UINT32, &version);
-    H5Aclose(attribute);
-  });
-  EXPECT_NE(message.find("version 2"), std::string::npos) << message;
-}
-
-TEST(PvsFile, NamesWhatIsMissingOrElsewhere) {
-  EXPECT_NE(message_after([](hid_t file) {
-              H5Ldelete(file, "/cells/row", H5P_DEFAULT);
-            }).find("/cells/row: missing"),
-            std::string::npos);
-  EXPECT_NE(message_after([](hid_t file) {
-              H5Ldelete(file, "/navigation", H5P_DEFAULT);
-            }).find("/navigation: missing"),
-            std::string::npos);
-  EXPECT_NE(message_after([](hid_t file) {
-              H5Ldelete(file, "/pvs/begin", H5P_DEFAULT);
-              H5Lcreate_external("/etc/passwd", "/begin", file, "/pvs/begin", H5P_DEFAULT, H5P_DEFAULT);
-            }).find("/pvs/begin: a link"),
-            std::string::npos);
-  EXPECT_NE(message_after([](hid_t file) {
-              H5Ldelete(file, "/pvs/index", H5P_DEFAULT);
-              H5Lcreate_soft("/pvs/object", file, "/pvs/index", H5P_DEFAULT, H5P_DEFAULT);
-            }).find("/pvs/index: a link"),
-            std::string::npos);
-}
-
-TEST(PvsFile, NamesWhatChanged) {
-  const std::string value = message_after([](hid_t file) {
-    const hid_t dataset = H5Dopen2(file, "/cells/row", H5P_DEFAULT);
-    const uint32_t rows[7] = {0, 1, 2, 0, 1, 2, 1};
-    H5Dwrite(dataset, H5T_NATIVE_UINT32, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows);
-    H5Dclose(dataset);
-  });
-  EXPECT_NE(value.find("/cells/row: damaged: its digest"), std::string::npos) << value;
-  const std::string extent = message_after([](hid_t file) {
-    const hid_t dataset = H5Dopen2(file, "/pvs/object", H5P_DEFAULT);
-    const hsize_t rows = hsize_t{1} << 40;
-    H5Dset_extent(dataset, &rows);
-    H5Dclose(dataset);
-  });
-  EXPECT_NE(extent.find("/pvs/object: damaged: claims"), std::string::npos) << extent;
 }
 
 }  // namespace

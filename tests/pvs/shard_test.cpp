@@ -15,6 +15,7 @@ namespace veduta {
 namespace {
 
 using test::read_bytes;
+using test::status_of;
 using test::TemporaryDirectory;
 using test::write_bytes;
 
@@ -51,16 +52,6 @@ Read read(const std::filesystem::path& file, const std::string& fingerprint = jo
     out.offsets.push_back(offset);
   });
   return out;
-}
-
-ExitStatus status_of(const std::function<void()>& action, std::string* message = nullptr) {
-  try {
-    action();
-  } catch (const Error& error) {
-    if (message) *message = error.what();
-    return error.status();
-  }
-  return ExitStatus::done;
 }
 
 TEST(Shard, ChecksumIsCrc32c) {

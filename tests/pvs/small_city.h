@@ -7,11 +7,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <string>
 #include <vector>
 
 #include "pvs/pvs_file.h"
+#include "scene/error.h"
 
 namespace veduta::test {
 
@@ -88,6 +90,17 @@ inline BakedCell small_row(uint32_t c) {
 
 inline PvsHeader small_header() {
   return {"00112233445566778899aabbccddeeff", "[scene]\nmodel = [\"a.json\"]\n", "llvmpipe", false, true};
+}
+
+/// The status of the Error that an action throws, done when it throws none.
+inline ExitStatus status_of(const std::function<void()>& action, std::string* message = nullptr) {
+  try {
+    action();
+  } catch (const Error& error) {
+    if (message) *message = error.what();
+    return error.status();
+  }
+  return ExitStatus::done;
 }
 
 }  // namespace veduta::test
