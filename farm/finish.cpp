@@ -21,14 +21,6 @@ double seconds_since(std::chrono::steady_clock::time_point then) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
 }
 
-/// What the merge said last on its standard error, without the program's name.
-std::string last_line(const std::filesystem::path& log) {
-  std::string text = read_text_file(log).value_or("");
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  if (const size_t mark = text.rfind('\n'); mark != std::string::npos) text.erase(0, mark + 1);
-  return text.rfind("veduta: ", 0) == 0 ? text.substr(8) : text;
-}
-
 /// Our own `merge` as a program of its own: it can be stopped, and it does not carry MPI along.
 json merge_in_child(const BakeEnd& end) {
   const auto log = end.run.directory / "workers" / fmt::format("{:04}-merge.log", end.tally.attempt);
@@ -46,7 +38,9 @@ json merge_in_child(const BakeEnd& end) {
   if (child.exit_status() <= 0)
     throw Error(ExitStatus::defect, fmt::format("{}: the merge ended with {}; see {}",
                                                 end.run.directory.string(), ending, log.string()));
-  throw Error(static_cast<ExitStatus>(child.exit_status()), last_line(log));
+  std::string message = last_line(log);
+  if (message.rfind("veduta: ", 0) == 0) message.erase(0, 8);
+  throw Error(static_cast<ExitStatus>(child.exit_status()), message);
 }
 
 json report_of(const BakeEnd& end, const json& merged) {

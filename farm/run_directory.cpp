@@ -126,6 +126,17 @@ std::optional<std::string> read_text_file(const fs::path& file) {
   return text.str();
 }
 
+std::string last_line(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  if (!in) return {};
+  const auto size = static_cast<std::streamoff>(in.tellg());
+  in.seekg(std::max<std::streamoff>(0, size - 4096));
+  std::string last;
+  for (std::string line; std::getline(in, line);)
+    if (!line.empty()) last = line;
+  return last.substr(0, 300);
+}
+
 std::optional<CityCounts> read_city_counts(const RunPaths& run) {
   if (!fs::exists(run.city())) return std::nullopt;
   const json counts = json::parse(read_text_file(counts_file(run)).value_or(""), nullptr, false);

@@ -31,6 +31,8 @@ void remove_run(const RunPaths& run);
 void write_file_atomically(const std::filesystem::path& file, const std::string& content);
 /// nullopt when it is not there. \throw Error(input_output) when it cannot be read.
 std::optional<std::string> read_text_file(const std::filesystem::path& file);
+/// The last line of a log file, at most 300 characters of it; empty when there is none.
+std::string last_line(const std::filesystem::path& file);
 
 /// What a prepared city holds.
 struct CityCounts {

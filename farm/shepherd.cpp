@@ -211,6 +211,9 @@ void Shepherd::on_death(uint32_t number, const std::string& why) {
   lost.lease = slot.lease, lost.slot = number;
   lost.given_up = slot.deaths_before_open >= deaths_allowed_before_open;
   std::string reason = why.empty() ? ending : why;
+  // What it said last, in a frame or, like a library that aborts, on its standard error.
+  if (slot.last_words.empty())
+    slot.last_words = last_line(worker_log(options_.run, job_.attempt, transport_.rank(), number));
   if (!slot.last_words.empty()) reason += ": " + slot.last_words;
   lost.reason = FixedText<400>(reason);
   tell(lost);

@@ -154,6 +154,10 @@ int main(int argc, char** argv) {
   }
   try {
     return veduta::FakeWorker().run();
+  } catch (const veduta::Error& error) {
+    const auto status = static_cast<int>(error.status());
+    veduta::answer(veduta::Verb::failed, {{"status", status}, {"message", error.what()}});
+    return status;
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";
     return 70;
