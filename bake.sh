@@ -5,7 +5,10 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 [[ $# -le 1 ]] || { echo "bake.sh: one argument at most: ./bake.sh [CONFIG]" >&2; exit 2; }
-[[ ${1:-} != -* ]] || { echo "use: ./bake.sh [CONFIG]   CONFIG: a bake configuration (TOML), by default configs/demo.toml"; exit 2; }
+case ${1:-} in
+  -h | --help) echo "use: ./bake.sh [CONFIG]   CONFIG: a bake configuration (TOML), by default configs/demo.toml"; exit 0 ;;
+  -*) echo "bake.sh: $1: no such option; use: ./bake.sh [CONFIG]" >&2; exit 2 ;;
+esac
 config=$(realpath -m -- "${1:-$root/configs/demo.toml}")
 [[ -f $config ]] || { echo "bake.sh: $config: no such file; give a bake configuration, or none for the demo" >&2; exit 2; }
 cd "$root"
