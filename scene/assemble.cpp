@@ -10,6 +10,7 @@
 #include <unordered_set>
 
 #include "scene/draft.h"
+#include "scene/terrain_skirt.h"
 #include "scene/text.h"
 #include "scene/triangulate.h"
 #include "scene/vertex_pool.h"
@@ -56,8 +57,8 @@ std::string place_of(const RawModel& model, const RawPatch& patch, uint64_t poly
 
 class Assembler {
  public:
-  Assembler(const glm::dvec3& origin, const ImportOptions& options, ImportReport report)
-      : origin_(origin), options_(options) {
+  Assembler(const glm::dvec3& origin, double lowest, const ImportOptions& options, ImportReport report)
+      : origin_(origin), bottom_(static_cast<float>(lowest - origin.z)), options_(options) {
     result_.report = std::move(report);
     result_.scene.origin = {origin.x, origin.y, origin.z};
   }
@@ -87,6 +88,11 @@ class Assembler {
     if (drafts_.empty()) {
       count_dropped(result_.report, "object without triangles", object.place);
       return;
+    }
+    if (object.kind == Kind::terrain) {
+      const std::vector<Draft> walls = terrain_skirt(drafts_, result_.scene.vertices, pool_, bottom_);
+      result_.report.skirt_triangles += walls.size();
+      drafts_.insert(drafts_.end(), walls.begin(), walls.end());
     }
     order_.resize(drafts_.size());
     std::iota(order_.begin(), order_.end(), 0u);
@@ -203,6 +209,7 @@ class Assembler {
   }
 
   const glm::dvec3 origin_;
+  const float bottom_;  // lowest z of the models, relative to the origin
   const ImportOptions options_;
   ImportResult result_;
   VertexPool pool_{result_.scene.vertices};
@@ -237,7 +244,8 @@ std::string common_crs(const std::vector<RawModel>& models) {
 ImportResult assemble(const std::vector<RawModel>& models, const ImportOptions& options,
                       ImportReport report) {
   const std::string crs = common_crs(models);
-  Assembler assembler(origin_of(extent_of(models)), options, std::move(report));
+  const Extent extent = extent_of(models);
+  Assembler assembler(origin_of(extent), extent.lower.z, options, std::move(report));
   for (const RawModel& model : models) assembler.add(model);
   ImportResult result = assembler.take();
   result.scene.crs = crs;

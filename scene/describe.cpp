@@ -51,6 +51,9 @@ std::string describe(const ImportResult& result) {
   text += line("extents", extents_text(scene, scene.bounds()));
   text += line("origin",
                fmt::format("{:.0f}, {:.0f}, {:.0f} m", scene.origin[0], scene.origin[1], scene.origin[2]));
+  if (report.skirt_triangles > 0)
+    text += line("added", fmt::format("{} triangles that close the earth below open edges of the terrain",
+                                      report.skirt_triangles));
   if (report.dropped.empty()) text += line("dropped", "nothing");
   for (const auto& [reason, dropped] : report.dropped)
     text += line("dropped", fmt::format("{} x {}; first: {}", dropped.count, reason, dropped.first_place));

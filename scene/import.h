@@ -24,6 +24,7 @@ struct ImportReport {
   std::map<std::string, uint64_t> objects_by_kind;
   uint64_t parts = 0;
   uint64_t polygons = 0, polygons_with_holes = 0;
+  uint64_t skirt_triangles = 0;                ///< added: walls below the open edges of terrain (terrain_skirt.h)
   /// Reason ("degenerate polygon", "duplicate triangle", "polygon that cannot be triangulated", "LoD 1 beside LoD 2",
   /// "unsupported geometry MultiPoint", ...) and how many, with the place of the first one of each reason.
   struct Dropped {

@@ -12,113 +12,107 @@
 namespace veduta {
 namespace {
 
-constexpr int tile = 128;          // voxels
-constexpr int reach = 192;         // how far a rectangle grows out of its seed, voxels
-constexpr int slab_voxels = 2;     // roofs are cut down to whole slabs
+constexpr int tile = 128;              // voxels
+constexpr int margin = 64;             // voxels around a tile into which its rectangles may grow
+constexpr int slab_voxels = 2;         // roofs are cut down to whole slabs
 constexpr double least_gain_m2 = 1.5;  // a box must cover this much of its slab that no other does
 constexpr double least_width_m = 0.5;  // and be this wide
 
 struct Rect {
-  int i0, i1, j0, j1;
+  int i0, i1, j0, j1;  // region coordinates, inclusive
   int64_t area() const { return int64_t{i1 - i0 + 1} * (j1 - j0 + 1); }
+};
+
+/// A column of the region (a tile and its margin) that has bits above the lowest top asked for.
+struct Column {
+  int i, j;              // region coordinates
+  const uint64_t* bits;  // of the grid
 };
 
 class TileCover {
  public:
-  TileCover(const BitGrid& grid, int ti, int tj)
-      : grid_(grid),
-        frame_(grid.frame()),
-        i0_(ti * tile),
-        j0_(tj * tile),
-        ni_(std::min(tile, frame_.nx - i0_)),
-        nj_(std::min(tile, frame_.ny - j0_)),
-        covered_(static_cast<size_t>(ni_) * nj_ * grid.words(), 0) {}
+  TileCover(const BitGrid& grid, int ti, int tj) : grid_(grid), frame_(grid.frame()), i0_(ti * tile - margin), j0_(tj * tile - margin) {}
 
   std::vector<Box> run(int lowest_top) {
-    for (int k = (top() / slab_voxels) * slab_voxels; k >= 0 && k + slab_voxels > lowest_top; k -= slab_voxels) {
-      cover_slab(k, k + slab_voxels - 1);
-    }
+    collect_columns(lowest_top);
+    if (!any_own_) return {};
+    set_.resize(size_t{edge} * edge), distance_.resize(set_.size()), covered_.resize(size_t{tile} * tile * grid_.words());
+    for (int k = highest_ / slab_voxels * slab_voxels; k >= 0 && k + slab_voxels > lowest_top; k -= slab_voxels) cover_slab(k);
     return std::move(boxes_);
   }
 
  private:
-  int top() const {
-    int highest = -1;
-    for (int j = j0_; j < j0_ + nj_; ++j) {
-      for (int i = i0_; i < i0_ + ni_; ++i) {
-        for (int w = grid_.words() - 1; w >= 0; --w) {
-          if (const uint64_t bits = grid_.column(i, j)[w]; bits != 0) {
-            highest = std::max(highest, 64 * w + 63 - std::countl_zero(bits));
-            break;
-          }
+  static constexpr int edge = tile + 2 * margin;
+  static bool own(int i, int j) { return i >= margin && j >= margin && i < margin + tile && j < margin + tile; }
+  static size_t at(int i, int j) { return static_cast<size_t>(j) * edge + i; }
+
+  void collect_columns(int lowest_top) {
+    for (int j = std::max(0, -j0_); j < edge && j0_ + j < frame_.ny; ++j) {
+      for (int i = std::max(0, -i0_); i < edge && i0_ + i < frame_.nx; ++i) {
+        const uint64_t* bits = grid_.column(i0_ + i, j0_ + j);
+        int top = -1;
+        for (int w = grid_.words() - 1; w >= 0 && top < 0; --w) {
+          if (bits[w] != 0) top = 64 * w + 63 - std::countl_zero(bits[w]);
         }
+        if (top < lowest_top) continue;
+        columns_.push_back({i, j, bits});
+        if (own(i, j)) any_own_ = true, highest_ = std::max(highest_, top);
       }
     }
-    return highest;
   }
 
-  uint64_t* covered(int i, int j) { return &covered_[(static_cast<size_t>(j - j0_) * ni_ + (i - i0_)) * grid_.words()]; }
-
-  bool is_set(int i, int j) const {
-    return i >= 0 && j >= 0 && i < frame_.nx && j < frame_.ny && grid_.run_set(i, j, k0_, std::min(k1_, frame_.nz - 1));
-  }
+  uint64_t* covered(int i, int j) { return &covered_[(static_cast<size_t>(j - margin) * tile + (i - margin)) * grid_.words()]; }
 
   bool owed(int i, int j) {
-    if (!is_set(i, j)) return false;
-    for (int w = k0_ >> 6; w <= k1_ >> 6 && w < grid_.words(); ++w) {
+    if (!set_[at(i, j)]) return false;
+    for (int w = k0_ >> 6; w <= k1_ >> 6; ++w) {
       const uint64_t mask = run_mask(w, k0_, k1_);
       if ((covered(i, j)[w] & mask) != mask) return true;
     }
     return false;
   }
 
-  /// Chebyshev distance of every column of the tile to the nearest unset one, at most `margin`.
-  std::vector<uint8_t> distances() const {
-    constexpr int margin = 48;
-    const int w = ni_ + 2 * margin, h = nj_ + 2 * margin;
-    std::vector<uint8_t> d(static_cast<size_t>(w) * h);
-    for (int j = 0; j < h; ++j) {
-      for (int i = 0; i < w; ++i) d[static_cast<size_t>(j) * w + i] = is_set(i0_ + i - margin, j0_ + j - margin) ? margin : 0;
-    }
-    const auto relax = [&](int i, int j, int di, int dj) {
-      const int x = i + di, y = j + dj;
-      if (x < 0 || y < 0 || x >= w || y >= h) return;
-      uint8_t& here = d[static_cast<size_t>(j) * w + i];
-      here = std::min<uint8_t>(here, static_cast<uint8_t>(d[static_cast<size_t>(y) * w + x] + 1));
+  /// Chebyshev distance of every set column of the region to the nearest unset one; the region's border counts as unset.
+  void measure_distances() {
+    const auto relax = [&](int i, int j, int d0, int d1, int d2, int d3) {
+      uint8_t& here = distance_[at(i, j)];
+      if (here == 0) return;
+      const uint8_t* p = &here;
+      here = static_cast<uint8_t>(std::min<int>(here, 1 + std::min(std::min(p[d0], p[d1]), std::min(p[d2], p[d3]))));
     };
-    for (int j = 0; j < h; ++j) {
-      for (int i = 0; i < w; ++i) relax(i, j, -1, 0), relax(i, j, -1, -1), relax(i, j, 0, -1), relax(i, j, 1, -1);
+    for (size_t n = 0; n < set_.size(); ++n) distance_[n] = set_[n] ? 255 : 0;
+    for (int n = 0; n < edge; ++n) {
+      for (const size_t border : {at(n, 0), at(n, edge - 1), at(0, n), at(edge - 1, n)}) distance_[border] = set_[border] ? 1 : 0;
     }
-    for (int j = h - 1; j >= 0; --j) {
-      for (int i = w - 1; i >= 0; --i) relax(i, j, 1, 0), relax(i, j, 1, 1), relax(i, j, 0, 1), relax(i, j, -1, 1);
+    for (int j = 1; j < edge - 1; ++j) {
+      for (int i = 1; i < edge - 1; ++i) relax(i, j, -1, -edge - 1, -edge, -edge + 1);
     }
-    std::vector<uint8_t> inner(static_cast<size_t>(ni_) * nj_);
-    for (int j = 0; j < nj_; ++j) {
-      std::copy_n(&d[static_cast<size_t>(j + margin) * w + margin], ni_, &inner[static_cast<size_t>(j) * ni_]);
+    for (int j = edge - 2; j > 0; --j) {
+      for (int i = edge - 2; i > 0; --i) relax(i, j, 1, edge + 1, edge, edge - 1);
     }
-    return inner;
   }
 
-  bool line_set(int i0, int i1, int j0, int j1) const {
+  bool all_set(int i0, int i1, int j0, int j1) const {
+    if (i0 < 0 || j0 < 0 || i1 >= edge || j1 >= edge) return false;
     for (int j = j0; j <= j1; ++j) {
       for (int i = i0; i <= i1; ++i) {
-        if (!is_set(i, j)) return false;
+        if (!set_[at(i, j)]) return false;
       }
     }
     return true;
   }
 
   void grow_x(Rect& r) const {
-    for (int n = 0; n < reach && line_set(r.i0 - 1, r.i0 - 1, r.j0, r.j1); ++n) --r.i0;
-    for (int n = 0; n < reach && line_set(r.i1 + 1, r.i1 + 1, r.j0, r.j1); ++n) ++r.i1;
+    while (all_set(r.i0 - 1, r.i0 - 1, r.j0, r.j1)) --r.i0;
+    while (all_set(r.i1 + 1, r.i1 + 1, r.j0, r.j1)) ++r.i1;
   }
   void grow_y(Rect& r) const {
-    for (int n = 0; n < reach && line_set(r.i0, r.i1, r.j0 - 1, r.j0 - 1); ++n) --r.j0;
-    for (int n = 0; n < reach && line_set(r.i0, r.i1, r.j1 + 1, r.j1 + 1); ++n) ++r.j1;
+    while (all_set(r.i0, r.i1, r.j0 - 1, r.j0 - 1)) --r.j0;
+    while (all_set(r.i0, r.i1, r.j1 + 1, r.j1 + 1)) ++r.j1;
   }
 
-  Rect grow(int i, int j, int distance) const {
-    const int half = distance - 1;
+  Rect grow(int i, int j) const {
+    const int half = distance_[at(i, j)] - 1;
     Rect a{i - half, i + half, j - half, j + half}, b = a;
     grow_x(a), grow_y(a);
     grow_y(b), grow_x(b);
@@ -130,11 +124,11 @@ class TileCover {
     int low = 0, high = frame_.nz - 1;
     for (int j = r.j0; j <= r.j1; ++j) {
       for (int i = r.i0; i <= r.i1; ++i) {
-        const uint64_t* bits = grid_.column(i, j);
+        const uint64_t* bits = grid_.column(i0_ + i, j0_ + j);
         int k = k0_;
         while (k > low && (bits[(k - 1) >> 6] >> ((k - 1) & 63) & 1)) --k;
         low = std::max(low, k);
-        k = std::min(k1_, frame_.nz - 1);
+        k = k1_;
         while (k < high && (bits[(k + 1) >> 6] >> ((k + 1) & 63) & 1)) ++k;
         high = std::min(high, k);
       }
@@ -142,53 +136,67 @@ class TileCover {
     return {low, high};
   }
 
-  void cover_slab(int k0, int k1) {
-    k0_ = k0, k1_ = k1;
-    struct Seed {
-      int i, j;
-      uint8_t distance;
-    };
-    std::vector<Seed> seeds;
-    for (int j = j0_; j < j0_ + nj_; ++j) {
-      for (int i = i0_; i < i0_ + ni_; ++i) {
-        if (owed(i, j)) seeds.push_back({i, j, 0});
-      }
+  void load_slab(int k) {
+    k0_ = k, k1_ = std::min(k + slab_voxels, frame_.nz) - 1;
+    std::fill(set_.begin(), set_.end(), 0);
+    for (const Column& c : columns_) {
+      bool all = true;
+      for (int w = k0_ >> 6; w <= k1_ >> 6; ++w) all &= (~c.bits[w] & run_mask(w, k0_, k1_)) == 0;
+      set_[at(c.i, c.j)] = all;
+    }
+  }
+
+  void cover_slab(int k) {
+    load_slab(k);
+    seeds_.clear();
+    for (const Column& c : columns_) {
+      if (own(c.i, c.j) && owed(c.i, c.j)) seeds_.push_back({c.i, c.j, 0});
     }
     const double voxel_area = frame_.size_m * frame_.size_m;
-    if (static_cast<double>(seeds.size()) * voxel_area < least_gain_m2) return;
-    const std::vector<uint8_t> distance = distances();
-    for (Seed& s : seeds) s.distance = distance[static_cast<size_t>(s.j - j0_) * ni_ + (s.i - i0_)];
-    std::stable_sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) { return a.distance > b.distance; });
+    if (static_cast<double>(seeds_.size()) * voxel_area < least_gain_m2) return;
+    measure_distances();
+    for (Seed& s : seeds_) s.distance = distance_[at(s.i, s.j)];
+    std::stable_sort(seeds_.begin(), seeds_.end(), [](const Seed& a, const Seed& b) { return a.distance > b.distance; });
+    tried_.assign(set_.size(), false);
+    for (const Seed& s : seeds_) {
+      if (!tried_[at(s.i, s.j)] && owed(s.i, s.j)) place_box(grow(s.i, s.j));
+    }
+  }
 
-    std::vector<bool> tried(static_cast<size_t>(ni_) * nj_, false);
-    for (const Seed& s : seeds) {
-      if (tried[static_cast<size_t>(s.j - j0_) * ni_ + (s.i - i0_)] || !owed(s.i, s.j)) continue;
-      const Rect r = grow(s.i, s.j, s.distance);
-      const Rect own{std::max(r.i0, i0_), std::min(r.i1, i0_ + ni_ - 1), std::max(r.j0, j0_), std::min(r.j1, j0_ + nj_ - 1)};
-      int64_t gain = 0;
-      for (int j = own.j0; j <= own.j1; ++j) {
-        for (int i = own.i0; i <= own.i1; ++i) {
-          gain += owed(i, j);
-          tried[static_cast<size_t>(j - j0_) * ni_ + (i - i0_)] = true;
-        }
-      }
-      const double width_m = std::min(r.i1 - r.i0 + 1, r.j1 - r.j0 + 1) * frame_.size_m;
-      if (static_cast<double>(gain) * voxel_area < least_gain_m2 || width_m < least_width_m) continue;
-      const auto [low, high] = shared_run(r);
-      boxes_.push_back(frame_.box(r.i0, r.i1, r.j0, r.j1, low, high));
-      for (int j = own.j0; j <= own.j1; ++j) {
-        for (int i = own.i0; i <= own.i1; ++i) {
-          for (int w = low >> 6; w <= high >> 6; ++w) covered(i, j)[w] |= run_mask(w, low, high);
-        }
+  void place_box(const Rect& r) {
+    const Rect mine{std::max(r.i0, margin), std::min(r.i1, margin + tile - 1), std::max(r.j0, margin), std::min(r.j1, margin + tile - 1)};
+    int64_t gain = 0;
+    for (int j = mine.j0; j <= mine.j1; ++j) {
+      for (int i = mine.i0; i <= mine.i1; ++i) gain += owed(i, j), tried_[at(i, j)] = true;
+    }
+    const double width_m = std::min(r.i1 - r.i0 + 1, r.j1 - r.j0 + 1) * frame_.size_m;
+    if (static_cast<double>(gain) * frame_.size_m * frame_.size_m < least_gain_m2 || width_m < least_width_m) return;
+    const auto [low, high] = shared_run(r);
+    boxes_.push_back(frame_.box(i0_ + r.i0, i0_ + r.i1, j0_ + r.j0, j0_ + r.j1, low, high));
+    for (int j = mine.j0; j <= mine.j1; ++j) {
+      for (int i = mine.i0; i <= mine.i1; ++i) {
+        for (int w = low >> 6; w <= high >> 6; ++w) covered(i, j)[w] |= run_mask(w, low, high);
       }
     }
   }
 
+  struct Seed {
+    int i, j;
+    uint8_t distance;
+  };
+
   const BitGrid& grid_;
   const GridFrame& frame_;
-  int i0_, j0_, ni_, nj_;
-  int k0_ = 0, k1_ = 0;             // the slab at hand
-  std::vector<uint64_t> covered_;   // columns of the tile
+  int i0_, j0_;                      // of the region's first column in the grid; may be negative
+  int highest_ = -1;
+  bool any_own_ = false;
+  std::vector<Column> columns_;
+  int k0_ = 0, k1_ = 0;              // the slab at hand
+  std::vector<uint8_t> set_;         // [edge * edge] is the slab set in this column?
+  std::vector<uint8_t> distance_;
+  std::vector<uint8_t> tried_;
+  std::vector<uint64_t> covered_;    // columns of the tile
+  std::vector<Seed> seeds_;
   std::vector<Box> boxes_;
 };
 

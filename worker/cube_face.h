@@ -12,12 +12,16 @@ namespace veduta {
 /// +x, -x, +y, -y, +z: what is straight below an eye (within 45 degrees) always counts as visible.
 inline constexpr int face_count = 5;
 
-/// Rows: right, up, forward. Turns a position relative to the eye into face coordinates; a rotation with entries 0 and +-1.
+/// Rows: right, up, forward. Turns a position relative to the eye into face coordinates; a rotation with entries 0 and +-1. On
+/// the four side faces up is the world's z.
 inline glm::mat3 face_from_world(int face) {
-  const int forward = face / 2, right = (forward + 1) % 3, up = (forward + 2) % 3;
   const float sign = face % 2 == 0 ? 1.0f : -1.0f;
   glm::mat3 m(0.0f);  // m[column][row]
-  m[right][0] = sign, m[up][1] = 1.0f, m[forward][2] = sign;
+  switch (face / 2) {
+    case 0: m[1][0] = sign, m[2][1] = 1.0f, m[0][2] = sign; break;
+    case 1: m[0][0] = -sign, m[2][1] = 1.0f, m[1][2] = sign; break;
+    default: m[0][0] = sign, m[1][1] = 1.0f, m[2][2] = sign; break;
+  }
   return m;
 }
 

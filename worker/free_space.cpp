@@ -2,7 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <cmath>
 #include <deque>
 
 namespace veduta {
@@ -63,16 +62,14 @@ void erode_column(uint64_t* bits, int words, int nz, int r) {
 
 }  // namespace
 
-BitGrid flood_fill(const SeedGrid& seeds) {
-  const GridFrame& frame = seeds.occupied.frame();
-  const int words = seeds.occupied.words();
+BitGrid flood_fill(const BitGrid& occupied) {
+  const GridFrame& frame = occupied.frame();
+  const int words = occupied.words();
   BitGrid pass(frame), free(frame);
   tbb::parallel_for(0, frame.ny, [&](int j) {
     for (int i = 0; i < frame.nx; ++i) {
-      const float ground = seeds.ground_low[static_cast<size_t>(j) * frame.nx + i];
-      const int lowest = std::isnan(ground) ? 0 : frame.layer(ground);
       for (int w = 0; w < words; ++w) {
-        pass.column(i, j)[w] = ~seeds.occupied.column(i, j)[w] & run_mask(w, lowest, frame.nz - 1);
+        pass.column(i, j)[w] = ~occupied.column(i, j)[w] & run_mask(w, 0, frame.nz - 1);
       }
       free.set(i, j, frame.nz - 1);  // the layer above the scene
     }

@@ -2,13 +2,12 @@
 #pragma once
 
 #include "worker/bit_grid.h"
-#include "worker/seed_grid.h"
 
 namespace veduta {
 
-/// The voxels that are connected to the outside, over faces, through unoccupied voxels. The fill starts above the scene and
-/// around it, never below it, and does not go under the terrain: nobody looks from underneath.
-BitGrid flood_fill(const SeedGrid& seeds);
+/// The voxels that are connected to the outside, over faces, through unoccupied voxels. The fill starts above the scene,
+/// never below it: nobody looks from underneath. Under a terrain it finds no way, since import closes its open edges.
+BitGrid flood_fill(const BitGrid& occupied);
 
 /// The voxels all of whose neighbours within (rx, ry, rz) voxels are set (erosion by a box). Voxels beside and above the grid
 /// count as not set, those below it as set. Linear in the grid's words for any radius.

@@ -1,4 +1,4 @@
-// The occluders of a city in one GL buffer, in clusters that are culled against a face before they are drawn.
+// The occluders of a city, and which of them one face of a panorama needs ("model only what a scene needs").
 #pragma once
 
 #include <epoxy/gl.h>
@@ -10,28 +10,46 @@
 
 namespace veduta {
 
+/// Boxes of one ring to draw, in instances [first, first + count) of the store's buffer.
+struct RingDraw {
+  float depth_limit_m = 0;
+  uint32_t first = 0, count = 0;
+};
+
 class OccluderStore {
  public:
   explicit OccluderStore(const std::vector<Ring>& rings);
 
-  size_t ring_count() const { return rings_.size(); }
-  float depth_limit_m(size_t ring) const { return rings_[ring].depth_limit_m; }
+  /// Chooses the boxes that matter to a face, nearest first, and uploads them: those that reach into its frustum, begin before
+  /// their ring's depth limit, do not end before the limit of the ring before (which draws the same occluders with less taken off),
+  /// and stand out above the horizon of the nearer ones. To leave an occluder out errs towards visible, so the horizon need
+  /// not be exact. \return one entry per ring, valid until the next call.
+  const std::vector<RingDraw>& select(int face, const glm::vec3& eye);
 
-  /// Draws the boxes of a ring that can matter in a face: those that reach into its frustum, begin before the ring's depth limit
-  /// and do not end before the limit of the ring before, which draws the same occluders with less taken off.
-  void draw(size_t ring, int face, const glm::vec3& eye) const;
+  void draw(const RingDraw& ring) const;
 
  private:
   struct Cluster {
     Box bounds;
-    uint32_t first, count;  // instances
+    uint32_t first, count;  // boxes
   };
   struct RingClusters {
     float depth_from_m, depth_limit_m;
     std::vector<Cluster> clusters;
   };
+  class Horizon;
+
   std::vector<RingClusters> rings_;
-  GlBuffer boxes_, indices_;
+  std::vector<Box> boxes_;
+  // Reused from call to call: nothing is allocated on the hot path once they have grown.
+  struct Near {
+    float depth_m;
+    uint32_t index;
+  };
+  std::vector<Near> clusters_by_depth_, boxes_by_depth_;
+  std::vector<Box> selected_;
+  std::vector<RingDraw> draws_;
+  GlBuffer instances_, indices_;
   GlVertexArray vertex_array_;
 };
 

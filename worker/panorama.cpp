@@ -85,9 +85,9 @@ void Panorama::State::draw_face(int face, const glm::vec3& eye) {
   glClear(GL_DEPTH_BUFFER_BIT);
   const glm::mat3 rotation = face_from_world(face);
   glUniformMatrix3fv(draw.uniform("face_from_world"), 1, GL_FALSE, glm::value_ptr(rotation));
-  for (size_t ring = 0; ring < occluders.ring_count(); ++ring) {
-    glUniform1f(draw.uniform("depth_limit"), occluders.depth_limit_m(ring));
-    occluders.draw(ring, face, eye);
+  for (const RingDraw& ring : occluders.select(face, eye)) {
+    glUniform1f(draw.uniform("depth_limit"), ring.depth_limit_m);
+    occluders.draw(ring);
   }
 }
 

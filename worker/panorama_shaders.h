@@ -98,7 +98,7 @@ vec3 to_face(int face, vec3 p) {
   float s = (face & 1) == 0 ? 1.0 : -1.0;
   int f = face >> 1;
   if (f == 0) return vec3(s * p.y, p.z, s * p.x);
-  if (f == 1) return vec3(s * p.z, p.x, s * p.y);
+  if (f == 1) return vec3(-s * p.x, p.z, s * p.y);
   return vec3(s * p.x, p.y, s * p.z);
 }
 

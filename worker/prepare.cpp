@@ -75,7 +75,7 @@ Prepared prepare(const Settings& settings, const StageProgress& progress) {
   const SeedGrid seeds = seed_test(city.scene, frame);
 
   stage("free space");
-  const BitGrid free = flood_fill(seeds);
+  const BitGrid free = flood_fill(seeds.occupied);
 
   stage("view-cells");
   city.cells = walk_cells(seeds, free, walk_options(settings, city.scene));

@@ -32,8 +32,7 @@ void clip_to_row(const ClippedTriangle& triangle, const GridFrame& frame, int j,
 
 SeedGrid::SeedGrid(const GridFrame& frame)
     : occupied(frame),
-      ground_low(static_cast<size_t>(frame.nx) * frame.ny, std::numeric_limits<float>::quiet_NaN()),
-      ground_high(ground_low) {}
+      ground(static_cast<size_t>(frame.nx) * frame.ny, std::numeric_limits<float>::quiet_NaN()) {}
 
 SeedGrid seed_test(const Scene& scene, const GridFrame& frame) {
   SeedGrid grid(frame);
@@ -75,17 +74,14 @@ SeedGrid seed_test(const Scene& scene, const GridFrame& frame) {
           grid.occupied.set_run(i, j, frame.layer(z0 - margin), frame.layer(z1 + margin));
           if (!item.terrain) return;
           const size_t c = static_cast<size_t>(j) * frame.nx + i;
-          grid.ground_low[c] = std::fmin(grid.ground_low[c], static_cast<float>(z0));
-          grid.ground_high[c] = std::fmax(grid.ground_high[c], static_cast<float>(z1));
+          grid.ground[c] = std::fmax(grid.ground[c], static_cast<float>(z1));
         });
       }
     }
   });
 
   if (!any_terrain) {
-    const float lowest = scene.bounds().lower.z;
-    std::fill(grid.ground_low.begin(), grid.ground_low.end(), lowest);
-    std::fill(grid.ground_high.begin(), grid.ground_high.end(), lowest);
+    std::fill(grid.ground.begin(), grid.ground.end(), scene.bounds().lower.z);
   }
   return grid;
 }

@@ -9,8 +9,7 @@ namespace veduta {
 /// What the seed test leaves: the voxels that a triangle touches, and the ground under every column.
 struct SeedGrid {
   BitGrid occupied;
-  std::vector<float> ground_low;   ///< [ny * nx] lowest terrain in the column, m; NaN where there is none
-  std::vector<float> ground_high;  ///< [ny * nx] highest terrain in the column, m; NaN where there is none
+  std::vector<float> ground;  ///< [ny * nx] highest terrain in the column, m; NaN where there is none
   explicit SeedGrid(const GridFrame& frame);
 };
 

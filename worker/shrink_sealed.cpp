@@ -19,7 +19,7 @@ std::vector<RingErosion> ring_erosions(const ShrinkRequest& request, double voxe
     ring.depth_limit_m = ring.h_m * request.resolution / (1 + sigma);
     rings.push_back(ring);
     if (ring.depth_limit_m >= request.reach_m) return rings;
-    n = voxels(widest + 2 * ring.h_m);
+    n = voxels(widest + std::min(2 * ring.h_m, request.reach_m * (1 + sigma) / request.resolution));
   }
 }
 

@@ -35,7 +35,7 @@ Band eye_band(const SeedGrid& seeds, const BitGrid& free, const WalkCells& optio
   const double e = 1e-3 * frame.size_m;
   for (int j = frame.column_y(square.lower.y + e); j <= frame.column_y(square.upper.y - e); ++j) {
     for (int i = frame.column_x(square.lower.x + e); i <= frame.column_x(square.upper.x - e); ++i) {
-      const float ground = seeds.ground_high[static_cast<size_t>(j) * frame.nx + i];
+      const float ground = seeds.ground[static_cast<size_t>(j) * frame.nx + i];
       if (std::isnan(ground)) continue;
       const double eye = ground + options.eye_height_m;
       const int k0 = frame.layer(eye - options.eye_slack_m), k1 = frame.layer(eye + options.eye_slack_m);
@@ -116,7 +116,7 @@ HeightField ground_heights(const SeedGrid& seeds, double step_m) {
   for (int j = 0; j < frame.ny; ++j) {
     for (int i = 0; i < frame.nx; ++i) {
       float& height = field.height[static_cast<size_t>(j / factor) * field.nx + i / factor];
-      height = std::fmax(height, seeds.ground_high[static_cast<size_t>(j) * frame.nx + i]);
+      height = std::fmax(height, seeds.ground[static_cast<size_t>(j) * frame.nx + i]);
     }
   }
   return field;
