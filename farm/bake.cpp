@@ -169,11 +169,10 @@ int bake_as_first(const BakeOptions& options, Transport& transport) {
   RunLog log(run.log(), options.verbosity);
   Progress progress(options.verbosity == Verbosity::quiet);
   const RankShare share = rank_share(transport, options.workers, options.gpu);
-  if (share.workers > share.cores && share.cores < share.machine_cores)
-    log.warning("bound", nlohmann::json{{"cores", share.cores}},
-                fmt::format("{} workers share the {} of {} cores that this rank is bound to; mpirun "
-                            "--bind-to none frees them",
-                            share.workers, share.cores, share.machine_cores));
+  if (launched_rank() && share.cores * static_cast<uint32_t>(transport.local_size()) < share.machine_cores)
+    log.info("bound", nlohmann::json{{"cores", share.cores}, {"machine_cores", share.machine_cores}},
+             fmt::format("this rank may use {} of {} cores; mpirun --bind-to none lets it use all",
+                         share.cores, share.machine_cores));
   Coordinator coordinator(transport, {run, fingerprint.hash, share.workers}, log, progress);
   GuardedShepherd shepherd(
       transport, {run, share.workers, share.threads_per_worker, options.gpu, options.cell_timeout_s});

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -24,11 +25,17 @@ namespace {
               fmt::format("{}: cannot be started: {}: {}", program, what, std::strerror(errno)));
 }
 
-/// Environment as exec wants it: ours with `extra` in front, because getenv takes the first.
-std::vector<std::string> merged_environment(const std::vector<std::pair<std::string, std::string>>& extra) {
+/// Our environment with some variables set anew.
+std::vector<std::string> merged_environment(const std::vector<std::pair<std::string, std::string>>& changes) {
   std::vector<std::string> all;
-  for (const auto& [name, value] : extra) all.push_back(name + "=" + value);
-  for (char** each = environ; *each; ++each) all.emplace_back(*each);
+  for (char** each = environ; *each; ++each) {
+    const std::string variable = *each;
+    const bool changed = std::any_of(changes.begin(), changes.end(), [&](const auto& change) {
+      return variable.rfind(change.first + "=", 0) == 0;
+    });
+    if (!changed) all.push_back(variable);
+  }
+  for (const auto& [name, value] : changes) all.push_back(name + "=" + value);
   return all;
 }
 

@@ -9,13 +9,14 @@
 
 namespace veduta {
 
-/// What a frame says. Control payloads are JSON objects with the members listed; cell_baked carries an encoded CellRecord.
+/// What a frame says. Control payloads are JSON objects with the members listed; cell_baked carries an
+/// encoded CellRecord.
 enum class Verb : uint32_t {
   // shepherd to worker
-  prepare = 1,      ///< {"directory"}: read run.toml there, make prepared/ (atomically), answer `prepared`
-  open = 2,         ///< {"directory"}: load prepared/, make a GL context, answer `opened`
-  bake = 3,         ///< {"cells": [u32...]}: answer one `cell_baked` per cell, in order, then `lease_done`
-  quit = 4,         ///< {}: leave with status 0 (closing standard input means the same)
+  prepare = 1,  ///< {"directory"}: read run.toml there, make prepared/ (atomically), answer `prepared`
+  open = 2,     ///< {"directory"}: load prepared/, make a GL context, answer `opened`
+  bake = 3,     ///< {"cells": [u32...]}: answer one `cell_baked` per cell, in order, then `lease_done`
+  quit = 4,     ///< {}: leave with status 0 (closing standard input means the same)
   // worker to shepherd
   hello = 16,       ///< {"pid", "version"}: sent first
   progress = 17,    ///< {"stage", "done", "total"}: during `prepare`; also a sign of life
@@ -40,7 +41,8 @@ inline constexpr int protocol_version = 1;
 std::vector<std::byte> encode_frame(Verb verb, const std::byte* payload, size_t size);
 std::vector<std::byte> encode_frame(Verb verb, const std::string& json);
 
-/// Blocking. nullopt at end of stream. \throw Error(defect) on a damaged stream, Error(input_output) on a read error.
+/// Blocking. nullopt at end of stream. \throw Error(defect) on a damaged stream, Error(input_output) on a
+/// read error.
 std::optional<Frame> read_frame(int descriptor);
 /// Blocking; writes all. \throw Error(input_output).
 void write_frame(int descriptor, const std::vector<std::byte>& encoded);

@@ -13,37 +13,39 @@ namespace veduta {
 /// Every setting that changes a result. Lengths in metres.
 struct Settings {
   struct {
-    std::vector<std::string> model;   ///< files; relative ones are relative to the configuration file
-    double terrain_tile_m = 64.0;     ///< terrain is cut into square objects of this edge
+    std::vector<std::string> model;  ///< files; relative ones are relative to the configuration file
+    double terrain_tile_m = 64.0;    ///< terrain is cut into square objects of this edge
   } scene;
   struct {
-    std::string mode = "walk";        ///< "walk": cells at eye height above ground or terrain
-    double seed_size_m = 0.25;        ///< voxel edge; gaps narrower than two seeds may count as closed (DESIGN §3)
-    double eye_height_m = 1.7;        ///< above ground, +- 0.25 m
+    std::string mode = "walk";  ///< "walk": cells at eye height above ground or terrain
+    double seed_size_m = 0.25;  ///< voxel edge; gaps narrower than two seeds may count as closed (DESIGN §3)
+    double eye_height_m = 1.7;  ///< above ground, +- 0.25 m
   } navigation;
   struct {
-    double size_m = 10.0;             ///< horizontal edge of a view-cell
-    double height_m = 1.0;            ///< vertical edge of a view-cell; cells stack where the ground varies more
-    std::optional<std::array<double, 4>> region;  ///< x0, y0, x1, y1 in the scene's CRS: where cells are made; none: everywhere
+    double size_m = 10.0;   ///< horizontal edge of a view-cell
+    double height_m = 1.0;  ///< vertical edge of a view-cell; cells stack where the ground varies more
+    std::optional<std::array<double, 4>>
+        region;  ///< x0, y0, x1, y1 in the scene's CRS: where cells are made; none: everywhere
   } cells;
   struct {
-    int max = 8;                      ///< most slices per axis of an object
+    int max = 8;  ///< most slices per axis of an object
   } slices;
   struct {
     std::string method = "sealed";
   } shrink;
   struct {
     std::string method = "panorama";
-    int resolution = 512;             ///< pixels along the edge of a cube face
-    int subdivide = 2;                ///< a cell is baked as subdivide x subdivide parts
+    int resolution = 512;  ///< pixels along the edge of a cube face
+    int subdivide = 2;     ///< a cell is baked as subdivide x subdivide parts
   } occlusion;
   struct {
-    double eye_margin_m = 0.0325;     ///< half the interocular distance: one look-up serves both eyes
+    double eye_margin_m = 0.0325;  ///< half the interocular distance: one look-up serves both eyes
   } stereo;
 };
 
 /// Reads a TOML file. Model paths come out absolute.
-/// \throw Error(usage) with file and line for an unknown key (naming the nearest known one), a wrong type or a value out of
+/// \throw Error(usage) with file and line for an unknown key (naming the nearest known one), a wrong type or
+/// a value out of
 ///   range; Error(input_output) when the file cannot be read.
 Settings load_settings(const std::filesystem::path& file);
 
@@ -53,7 +55,8 @@ Settings parse_settings(const std::string& text, const std::string& name, const 
 /// The resolved configuration, every key with its value, in a fixed order: what `run.toml` and the file hold.
 std::string to_toml(const Settings& settings);
 
-/// Every key path ("cells.size") with its value as TOML, in the same order: what the fingerprint of a job is made of.
+/// Every key path ("cells.size") with its value as TOML, in the same order: what the fingerprint of a job is
+/// made of.
 std::vector<std::pair<std::string, std::string>> list_settings(const Settings& settings);
 
 /// Every key with type, range, default and help, for `veduta bake --help-config` and docs/configuration.md.

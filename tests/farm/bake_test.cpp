@@ -1,113 +1,17 @@
 // The whole program with a worker that needs no GL: alone, under mpirun, killed in every way, continued.
-#include "farm/bake.h"
-
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
-#include <thread>
 
-#include "merge/merge.h"
 #include "pvs/pvs_file.h"
+#include "tests/farm/processes.h"
 
 namespace veduta {
 namespace {
 
 namespace fs = std::filesystem;
-using Environment = std::vector<std::pair<std::string, std::string>>;
-
-std::string slurp(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
-/// A shell command in a process of its own; what it prints goes to a file.
-class Process {
- public:
-  Process(const std::string& command, const Environment& environment, fs::path output)
-      : output_(std::move(output)) {
-    pid_ = fork();
-    if (pid_ != 0) return;
-    for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
-    const int file = open(output_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    dup2(file, STDOUT_FILENO), dup2(file, STDERR_FILENO);
-    execl("/bin/sh", "sh", "-c", ("exec " + command).c_str(), nullptr);
-    _exit(127);
-  }
-  ~Process() {
-    if (pid_ > 0) kill(pid_, SIGKILL), wait();
-  }
-  Process(const Process&) = delete;
-  Process& operator=(const Process&) = delete;
-
-  pid_t pid() const { return pid_; }
-  /// The exit status; 128 + n after a signal.
-  int wait() {
-    int status = 0;
-    while (pid_ > 0 && waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
-    }
-    pid_ = -1;
-    return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
-  }
-  std::string output() const { return slurp(output_); }
-
- private:
-  fs::path output_;
-  pid_t pid_ = -1;
-};
-
-struct Entry {
-  pid_t pid = 0, parent = 0;
-  std::string name;
-};
-
-std::vector<Entry> processes() {
-  std::vector<Entry> all;
-  for (const auto& directory : fs::directory_iterator("/proc")) {
-    std::ifstream stat(directory.path() / "stat");
-    std::string line;
-    if (!std::getline(stat, line)) continue;
-    const size_t open_mark = line.find('('), close_mark = line.rfind(')');
-    if (close_mark == std::string::npos || line[close_mark + 2] == 'Z') continue;
-    Entry entry;
-    entry.pid = std::atoi(line.c_str());
-    entry.name = line.substr(open_mark + 1, close_mark - open_mark - 1);
-    entry.parent = std::atoi(line.c_str() + close_mark + 4);
-    all.push_back(entry);
-  }
-  return all;
-}
-
-/// Living descendants of a process with this name.
-std::vector<pid_t> descendants(pid_t root, const std::string& name) {
-  const auto all = processes();
-  std::vector<pid_t> family{root}, found;
-  for (size_t i = 0; i < family.size(); ++i)
-    for (const Entry& entry : all)
-      if (entry.parent == family[i]) {
-        family.push_back(entry.pid);
-        if (entry.name == name) found.push_back(entry.pid);
-      }
-  return found;
-}
-
-template <typename Condition>
-bool within(double seconds, const Condition& condition) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  return true;
-}
+using namespace test;
 
 class Bake : public testing::Test {
  protected:
