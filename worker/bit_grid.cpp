@@ -28,24 +28,27 @@ Box GridFrame::box(int i0, int i1, int j0, int j1, int k0, int k1) const {
 
 GridFrame make_frame(const Box& bounds, double size_m, uint64_t limit_bytes) {
   constexpr double pad = 2;
-  const auto first = [&](float lower) { return std::floor(lower / size_m); };
-  const auto last = [&](float upper) { return std::floor(upper / size_m) + 1; };
-  const double nx = last(bounds.upper.x) - first(bounds.lower.x) + 2 * pad;
-  const double ny = last(bounds.upper.y) - first(bounds.lower.y) + 2 * pad;
-  const double nz = last(bounds.upper.z) - first(bounds.lower.z) + pad;
-  const double bytes = nx * ny * std::ceil(nz / 64) * 8;
-  if (!(bytes <= static_cast<double>(limit_bytes))) {
-    const double fits = size_m * std::cbrt(bytes / static_cast<double>(limit_bytes)) * 1.3;
+  const auto first = [](float lower, double size) { return std::floor(lower / size); };
+  const auto last = [](float upper, double size) { return std::floor(upper / size) + 1; };
+  const auto extent = [&](int axis, double size) { return last(bounds.upper[axis], size) - first(bounds.lower[axis], size); };
+  const auto bytes_of = [&](double size) {
+    return (extent(0, size) + 2 * pad) * (extent(1, size) + 2 * pad) * std::ceil((extent(2, size) + pad) / 64) * 8;
+  };
+  const double nx = extent(0, size_m) + 2 * pad, ny = extent(1, size_m) + 2 * pad, nz = extent(2, size_m) + pad;
+  const double bytes = bytes_of(size_m), limit = static_cast<double>(limit_bytes);
+  if (!(bytes <= limit)) {
+    double fits = size_m;  // by trying: how bytes fall with the seed depends on the scene's proportions
+    while (std::isfinite(fits) && bytes_of(fits) > limit) fits *= 1.1;
     throw Error(ExitStatus::usage,
                 fmt::format("navigation.seed_size: a grid of {:.0f} x {:.0f} x {:.0f} voxels of {} m needs {:.1f} GB a bit plane "
-                            "(limit {:.1f} GB); use a seed of about {:.2f} m or a smaller scene",
-                            nx, ny, nz, size_m, bytes * 1e-9, static_cast<double>(limit_bytes) * 1e-9, fits));
+                            "(limit {:.1f} GB); use a seed of about {:.3g} m or a smaller scene",
+                            nx, ny, nz, size_m, bytes * 1e-9, limit * 1e-9, 1.02 * fits));
   }
   GridFrame frame;
   frame.size_m = size_m;
-  frame.lower_x = (first(bounds.lower.x) - pad) * size_m;
-  frame.lower_y = (first(bounds.lower.y) - pad) * size_m;
-  frame.lower_z = first(bounds.lower.z) * size_m;
+  frame.lower_x = (first(bounds.lower.x, size_m) - pad) * size_m;
+  frame.lower_y = (first(bounds.lower.y, size_m) - pad) * size_m;
+  frame.lower_z = first(bounds.lower.z, size_m) * size_m;
   frame.nx = static_cast<int>(nx), frame.ny = static_cast<int>(ny), frame.nz = static_cast<int>(nz);
   return frame;
 }

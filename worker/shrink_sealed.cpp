@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "worker/free_space.h"
@@ -19,7 +20,8 @@ std::vector<RingErosion> ring_erosions(const ShrinkRequest& request, double voxe
     ring.depth_limit_m = ring.h_m * request.resolution / (1 + sigma);
     rings.push_back(ring);
     if (ring.depth_limit_m >= request.reach_m) return rings;
-    n = voxels(widest + std::min(2 * ring.h_m, request.reach_m * (1 + sigma) / request.resolution));
+    // At least one voxel more: where h falls short of the reach by a rounding error, this would else never end.
+    n = std::max(n + 1, voxels(widest + std::min(2 * ring.h_m, request.reach_m * (1 + sigma) / request.resolution)));
   }
 }
 

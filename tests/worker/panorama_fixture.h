@@ -1,0 +1,114 @@
+// A GL context and small worlds for the tests of the panorama.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <vector>
+
+#include "gl/egl_context.h"
+#include "scene/error.h"
+#include "tests/worker/mesh.h"
+#include "worker/panorama.h"
+#include "worker/reference/occlusion_reference.h"
+
+namespace veduta::test {
+
+class GlTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    try {
+      context_.emplace("auto");
+    } catch (const Error& error) {
+      GTEST_SKIP() << error.what();
+    }
+  }
+  std::optional<EglContext> context_;
+};
+
+/// Occluders, objects as boxes and their slices.
+struct World {
+  std::vector<Ring> rings;
+  Mesh mesh;
+  std::vector<Box> objects;
+  SliceBoxes slices;
+  int resolution = 64;
+  glm::vec3 half_extent_m{0};
+
+  void object(const Box& box) {
+    mesh.object();
+    mesh.box(box);
+    objects.push_back(box);
+  }
+  /// After the last object.
+  void slice(SliceCounts counts) {
+    const std::vector<SliceCounts> all(objects.size(), counts);
+    slices = slice_boxes(mesh.scene, all, slice_triangles(mesh.scene, all));
+  }
+  Panorama panorama() const { return Panorama(objects, slices, rings, {resolution, half_extent_m}); }
+  reference::Panorama reference(const glm::vec3& eye) const {
+    return {rings, resolution, glm::dvec3(eye), Panorama::near_m};
+  }
+
+  /// What is hidden from all of the parts with these centres.
+  Occlusion occlusion(const std::vector<glm::vec3>& centers) const {
+    Panorama p = panorama();
+    p.begin_cell();
+    for (const glm::vec3& center : centers) p.add_part(center);
+    return p.finish_cell();
+  }
+};
+
+/// Is one object hidden behind these occluders, from a single part?
+inline bool hidden_behind(const std::vector<Box>& occluders, const Box& object, const glm::vec3& eye,
+                          const glm::vec3& half_extent_m = glm::vec3(0), float depth_limit_m = 1000) {
+  World world;
+  world.rings.push_back({0.25, depth_limit_m, occluders});
+  world.objects.push_back(object);
+  world.half_extent_m = half_extent_m;
+  return world.occlusion({eye}).visible[0] == 0;
+}
+
+/// What random_world() makes.
+struct WorldOptions {
+  uint32_t seed = 1;
+  int occluders = 60;
+  int objects = 250;
+  double floating = 0;  ///< share of the occluders that begin above the eye, where no skyline counts them
+};
+
+/// A city around the origin: eyes within 2 m of it and 1.7 m up stand in nothing. Two rings: the second is
+/// what is left of the first when more is taken off.
+inline World random_world(const WorldOptions& options) {
+  Random random(options.seed);
+  World world;
+  world.half_extent_m = {0.5f, 0.4f, 0.25f};
+  Ring near{0.25, 25, {}}, far{0.75, 500, {}};
+  for (int b = 0; b < options.occluders; ++b) {
+    const double angle = random.real(0, 6.283), distance = random.real(6, 70);
+    const glm::vec3 c(distance * std::cos(angle), distance * std::sin(angle), 0);
+    glm::vec3 half(random.real(0.8, 6), random.real(0.8, 6), 0);
+    if (std::max(std::abs(c.x) - half.x, std::abs(c.y) - half.y) < 2.5f) continue;
+    Box box{c - half, c + half};
+    box.lower.z = random.chance(options.floating) ? static_cast<float>(random.real(2.6, 4)) : -1.0f;
+    box.upper.z = box.lower.z + static_cast<float>(random.real(2, 16));
+    near.boxes.push_back(box);
+    if (std::min(half.x, half.y) < 1.5f) continue;
+    box.lower += glm::vec3(0.5f, 0.5f, 0), box.upper -= 0.5f;
+    far.boxes.push_back(box);
+  }
+  world.rings = {near, far};
+  for (int o = 0; o < options.objects; ++o) {
+    const double angle = random.real(0, 6.283), distance = random.real(4, 110);
+    const glm::vec3 lower(distance * std::cos(angle), distance * std::sin(angle), random.real(-1, 8));
+    // From whole buildings to rectangles, segments and points.
+    const auto edge = [&] {
+      return random.chance(0.15) ? 0.0f : static_cast<float>(std::pow(10, random.real(-1, 1)));
+    };
+    world.object({lower, lower + glm::vec3(edge(), edge(), edge())});
+  }
+  world.slice({3, 2, 4});
+  return world;
+}
+
+}  // namespace veduta::test
