@@ -33,14 +33,10 @@ inline Box to_face(int face, const Box& relative) {
   return box;
 }
 
-/// Does the box (in face coordinates) reach into the face's frustum |right|, |up| <= forward? If so, at which least depth.
-struct FaceTouch {
-  bool touches;
-  float nearest_m;
-};
-inline FaceTouch touch_face(const Box& b) {
-  const float nearest = std::max({b.lower.z, b.lower.x, -b.upper.x, b.lower.y, -b.upper.y, 0.0f});
-  return {nearest <= b.upper.z, nearest};
+/// The least depth at which a box (in face coordinates) reaches into the face's frustum |right|, |up| <= forward. It does not
+/// reach in at all when that is more than box.upper.z.
+inline float nearest_depth(const Box& box) {
+  return std::max({box.lower.z, box.lower.x, -box.upper.x, box.lower.y, -box.upper.y, 0.0f});
 }
 
 }  // namespace veduta

@@ -130,18 +130,4 @@ void erode(BitGrid& grid, int rx, int ry, int rz) {
   });
 }
 
-BitGrid sealed_space(const BitGrid& free) {
-  const GridFrame& frame = free.frame();
-  BitGrid sealed(frame);
-  tbb::parallel_for(0, frame.ny, [&](int j) {
-    for (int i = 0; i < frame.nx; ++i) {
-      for (int w = 0; w < free.words(); ++w) {
-        sealed.column(i, j)[w] = ~free.column(i, j)[w] & run_mask(w, 0, frame.nz - 1);
-      }
-    }
-  });
-  erode(sealed, 1, 1, 1);
-  return sealed;
-}
-
 }  // namespace veduta

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "worker/bit_grid.h"
+#include "worker/brick_grid.h"
 
 namespace veduta {
 
@@ -9,14 +10,16 @@ namespace veduta {
 /// never below it: nobody looks from underneath. Under a terrain it finds no way, since import closes its open edges.
 BitGrid flood_fill(const BitGrid& occupied);
 
-/// The voxels all of whose neighbours within (rx, ry, rz) voxels are set (erosion by a box). Voxels beside and above the grid
-/// count as not set, those below it as set. Linear in the grid's words for any radius.
-void erode(BitGrid& grid, int rx, int ry, int rz);
+/// Sealed space O, by seeds. The fill goes on from `free` into the occupied voxels, seed by seed, and through slits of two seeds
+/// into what lies behind, which then is free as well (`free` is updated). A voxel is sealed when it is not free and no seed that the fill
+/// reached lies in it or beside it (over a face, edge or corner). A point of it is sealed: a path to it from free space enters
+/// through a seed that a surface passes; a gap narrower than two seeds counts as closed. Seeds beside the reached ones are
+/// left out because a surface passes *somewhere* inside them: their outer part would hide what is in plain sight. Party walls
+/// stay in, so touching houses fuse.
+BitGrid sealed_space(const BitGrid& occupied, const BrickGrid& seeds, BitGrid& free);
 
-/// Sealed space O: every voxel that is neither free nor beside (over a face, edge or corner) a free one. A point q of it is
-/// sealed: a path from free space to q enters through a voxel that a surface passes; a gap narrower than two seeds counts
-/// as closed. The voxels beside free space are left out because a surface passes *somewhere* inside them: their outer part
-/// would hide what is in plain sight. Party walls stay in, so touching houses fuse.
-BitGrid sealed_space(const BitGrid& free);
+/// The voxels all of whose neighbours within (rx, ry, rz) voxels are set (erosion by a box). Voxels beside and above the grid
+/// count as not set, those below it as set. Linear in the grid's words.
+void erode(BitGrid& grid, int rx, int ry, int rz);
 
 }  // namespace veduta

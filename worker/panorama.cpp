@@ -9,7 +9,7 @@
 #include "gl/program.h"
 #include "scene/error.h"
 #include "worker/cube_face.h"
-#include "worker/occluder_store.h"
+#include "worker/occluder_selection.h"
 #include "worker/panorama_shaders.h"
 
 namespace veduta {
@@ -39,10 +39,12 @@ struct Panorama::State {
         test_slices(Program::compute(std::string(shader::box_test) + shader::slice_test)) {}
 
   PanoramaOptions options;
-  OccluderStore occluders;
+  OccluderSelection occluders;
   Program draw, reduce, test_objects, test_slices;
   GlTexture depth;
   std::array<GlFramebuffer, face_count> framebuffers;
+  GlVertexArray quads;
+  GlBuffer quad_vertices, quad_indices;
   GlBuffer pyramid, boxes, answers, slices, seen_now;
   int levels = 0;
   size_t objects = 0, vertical_slices = 0;
@@ -51,6 +53,7 @@ struct Panorama::State {
   Occlusion occlusion;
 
   void make_targets();
+  void make_quads();
   void draw_face(int face, const glm::vec3& eye);
   void build_pyramid();
   void test(const Program& program, size_t items, const glm::vec3& eye);
@@ -80,15 +83,29 @@ void Panorama::State::make_targets() {
   allocate(pyramid, pyramid_binding, texels * sizeof(float), nullptr);
 }
 
+/// Room for all sides of all boxes, and the indices of the two triangles of each quad, once.
+void Panorama::State::make_quads() {
+  const size_t capacity = std::max<size_t>(occluders.capacity(), 4);
+  glBindVertexArray(quads.id());
+  glBindBuffer(GL_ARRAY_BUFFER, quad_vertices.id());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(capacity * sizeof(OccluderVertex)), nullptr, GL_STREAM_DRAW);
+  glEnableVertexAttribArray(0);
+  glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(OccluderVertex), nullptr);
+  std::vector<uint32_t> indices;
+  for (uint32_t v = 0; v + 4 <= capacity; v += 4) indices.insert(indices.end(), {v, v + 1, v + 2, v, v + 2, v + 3});
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, quad_indices.id());
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(uint32_t)), indices.data(), GL_STATIC_DRAW);
+}
+
 void Panorama::State::draw_face(int face, const glm::vec3& eye) {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffers[face].id());
   glClear(GL_DEPTH_BUFFER_BIT);
   const glm::mat3 rotation = face_from_world(face);
   glUniformMatrix3fv(draw.uniform("face_from_world"), 1, GL_FALSE, glm::value_ptr(rotation));
-  for (const RingDraw& ring : occluders.select(face, eye)) {
-    glUniform1f(draw.uniform("depth_limit"), ring.depth_limit_m);
-    occluders.draw(ring);
-  }
+  const std::vector<OccluderVertex>& vertices = occluders.select(face, eye);
+  if (vertices.empty()) return;
+  glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(vertices.size() * sizeof(OccluderVertex)), vertices.data());
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(vertices.size() / 4 * 6), GL_UNSIGNED_INT, nullptr);
 }
 
 void Panorama::State::build_pyramid() {
@@ -132,6 +149,7 @@ Panorama::Panorama(const std::vector<Box>& object_boxes, const SliceBoxes& slice
     : state_(std::make_unique<State>(rings, options)) {
   State& s = *state_;
   s.make_targets();
+  s.make_quads();
   s.objects = object_boxes.size();
   s.vertical_slices = slices.slices.size();
   std::vector<Box> boxes = object_boxes;
@@ -152,8 +170,6 @@ Panorama::Panorama(const std::vector<Box>& object_boxes, const SliceBoxes& slice
   glClearDepth(0.0);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_CLIP_DISTANCE0);
-  glEnable(GL_CULL_FACE);
-  glFrontFace(GL_CW);  // (right, up, forward) is a rotation of the world, and forward points away from the eye
   glViewport(0, 0, options.resolution, options.resolution);
 }
 
@@ -168,8 +184,9 @@ void Panorama::begin_cell() {
 void Panorama::add_part(const glm::vec3& center) {
   State& s = *state_;
   s.draw.use();
-  glUniform3fv(s.draw.uniform("eye"), 1, glm::value_ptr(center));
   glUniform1f(s.draw.uniform("near"), near_m);
+  glBindVertexArray(s.quads.id());
+  glBindBuffer(GL_ARRAY_BUFFER, s.quad_vertices.id());
   for (int face = 0; face < face_count; ++face) s.draw_face(face, center);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);  // the faces are read now
   glActiveTexture(GL_TEXTURE0);

@@ -3,21 +3,17 @@
 
 namespace veduta::shader {
 
-/// Occluder boxes as instances. gl_Position = (right, up, near, forward): depth = near / forward, exact in float over the whole
-/// range. Clipped at the ring's depth limit: beyond it a pixel is wider than the ring's h (T3).
+/// Sides of occluder boxes, relative to the eye. gl_Position = (right, up, near, forward): depth = near / forward, exact in float
+/// over the whole range. Clipped at the ring's depth limit: beyond it a pixel is wider than the ring's h (T3).
 inline constexpr const char* occluder_vertex = R"(#version 430 core
-layout(location = 0) in vec3 lower;
-layout(location = 1) in vec3 upper;
-uniform vec3 eye;
+layout(location = 0) in vec4 corner_and_limit;
 uniform mat3 face_from_world;
-uniform float depth_limit;
 uniform float near;
 out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
 void main() {
-  bvec3 far_corner = bvec3(gl_VertexID & 1, gl_VertexID & 2, gl_VertexID & 4);
-  vec3 p = face_from_world * (mix(lower, upper, far_corner) - eye);
+  vec3 p = face_from_world * corner_and_limit.xyz;
   gl_Position = vec4(p.xy, near, p.z);
-  gl_ClipDistance[0] = depth_limit - p.z;
+  gl_ClipDistance[0] = corner_and_limit.w - p.z;
 }
 )";
 

@@ -71,11 +71,12 @@ Prepared prepare(const Settings& settings, const StageProgress& progress) {
                                        city.scene.triangles.size()));
 
   stage("seed test");
-  const GridFrame frame = make_frame(city.scene.bounds(), settings.navigation.seed_size_m);
+  const GridFrame frame = make_frame(city.scene.bounds(), seeds_per_voxel * settings.navigation.seed_size_m);
   const SeedGrid seeds = seed_test(city.scene, frame);
 
   stage("free space");
-  const BitGrid free = flood_fill(seeds.occupied);
+  BitGrid free = flood_fill(seeds.occupied);
+  const BitGrid sealed = sealed_space(seeds.occupied, seed_bricks(city.scene, seeds.occupied), free);
 
   stage("view-cells");
   city.cells = walk_cells(seeds, free, walk_options(settings, city.scene));
@@ -95,7 +96,7 @@ Prepared prepare(const Settings& settings, const StageProgress& progress) {
   city.triangle_slices = slice_triangles(city.scene, city.slices);
 
   stage("shrink");
-  prepared.rings = shrink(settings, city.scene, sealed_space(free), city.cells);
+  prepared.rings = shrink(settings, city.scene, sealed, city.cells);
   note_rings(prepared.rings, prepared.notes);
   if (progress) progress("prepared", stages, stages);
   return prepared;

@@ -1,6 +1,5 @@
 #include "worker/seed_grid.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -34,10 +33,8 @@ SeedGrid::SeedGrid(const GridFrame& frame)
     : occupied(frame),
       ground(static_cast<size_t>(frame.nx) * frame.ny, std::numeric_limits<float>::quiet_NaN()) {}
 
-SeedGrid seed_test(const Scene& scene, const GridFrame& frame) {
-  SeedGrid grid(frame);
+void visit_touched_columns(const Scene& scene, const GridFrame& frame, const ColumnVisitor& visit) {
   const double margin = frame.size_m * 1e-3;
-
   // Triangles by the band of rows that they touch, so that bands run in parallel without sharing a column.
   constexpr int band_rows = 64;
   const int bands = (frame.ny + band_rows - 1) / band_rows;
@@ -46,43 +43,43 @@ SeedGrid seed_test(const Scene& scene, const GridFrame& frame) {
     bool terrain;
   };
   std::vector<std::vector<Item>> items(bands);
-  bool any_terrain = false;
   for (const Object& object : scene.objects) {
-    const bool terrain = object.kind == Kind::terrain;
-    any_terrain |= terrain;
     for (uint64_t t = object.triangle_begin; t < object.triangle_end; ++t) {
       const glm::uvec3 v = scene.triangles[t];
       const double y0 = std::min({scene.vertices[v.x].y, scene.vertices[v.y].y, scene.vertices[v.z].y});
       const double y1 = std::max({scene.vertices[v.x].y, scene.vertices[v.y].y, scene.vertices[v.z].y});
       for (int b = frame.column_y(y0 - margin) / band_rows; b <= frame.column_y(y1 + margin) / band_rows; ++b) {
-        items[b].push_back({static_cast<uint32_t>(t), terrain});
+        items[b].push_back({static_cast<uint32_t>(t), object.kind == Kind::terrain});
       }
     }
   }
-
   tbb::parallel_for(0, bands, [&](int b) {
     for (const Item& item : items[b]) {
       const ClippedTriangle triangle = triangle_of(scene, item.triangle);
       double y0 = std::numeric_limits<double>::infinity(), y1 = -y0;
-      for (int n = 0; n < 3; ++n) {
-        y0 = std::min(y0, triangle.corner[n].y), y1 = std::max(y1, triangle.corner[n].y);
-      }
+      for (int n = 0; n < 3; ++n) y0 = std::min(y0, triangle.corner[n].y), y1 = std::max(y1, triangle.corner[n].y);
       const int first = std::max(frame.column_y(y0 - margin), b * band_rows);
       const int last = std::min(frame.column_y(y1 + margin), (b + 1) * band_rows - 1);
       for (int j = first; j <= last; ++j) {
         clip_to_row(triangle, frame, j, margin, [&](int i, double z0, double z1) {
-          grid.occupied.set_run(i, j, frame.layer(z0 - margin), frame.layer(z1 + margin));
-          if (!item.terrain) return;
-          const size_t c = static_cast<size_t>(j) * frame.nx + i;
-          grid.ground[c] = std::fmax(grid.ground[c], static_cast<float>(z1));
+          visit(i, j, frame.layer(z0 - margin), frame.layer(z1 + margin), {item.terrain, static_cast<float>(z1)});
         });
       }
     }
   });
+}
 
-  if (!any_terrain) {
-    std::fill(grid.ground.begin(), grid.ground.end(), scene.bounds().lower.z);
-  }
+SeedGrid seed_test(const Scene& scene, const GridFrame& frame) {
+  SeedGrid grid(frame);
+  visit_touched_columns(scene, frame, [&](int i, int j, int k0, int k1, const TouchedColumn& touched) {
+    grid.occupied.set_run(i, j, k0, k1);
+    if (!touched.terrain) return;
+    float& ground = grid.ground[static_cast<size_t>(j) * frame.nx + i];
+    ground = std::fmax(ground, touched.highest_m);
+  });
+  const bool any_terrain =
+      std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& o) { return o.kind == Kind::terrain; });
+  if (!any_terrain) std::fill(grid.ground.begin(), grid.ground.end(), scene.bounds().lower.z);
   return grid;
 }
 

@@ -1,6 +1,8 @@
 // The seed test (thesis §3.1.2): which voxels a triangle touches.
 #pragma once
 
+#include <functional>
+
 #include "scene/scene.h"
 #include "worker/bit_grid.h"
 
@@ -18,5 +20,16 @@ struct SeedGrid {
 /// The thesis tests all pairs of triangles and cells and calls it slow (§7.2); here each triangle is clipped to the columns
 /// that its bounds cover, and the z-range of what is left is set as a run: O(voxels touched / 64).
 SeedGrid seed_test(const Scene& scene, const GridFrame& frame);
+
+/// What a triangle is in a column that it touches.
+struct TouchedColumn {
+  bool terrain = false;
+  float highest_m = 0;
+};
+
+/// Calls visit for each triangle and each column (i, j) of the frame that it touches, with the layers [k0, k1] that it touches there.
+/// Runs in parallel: calls for the same group of 64 rows come one after the other, others at the same time.
+using ColumnVisitor = std::function<void(int i, int j, int k0, int k1, const TouchedColumn& touched)>;
+void visit_touched_columns(const Scene& scene, const GridFrame& frame, const ColumnVisitor& visit);
 
 }  // namespace veduta

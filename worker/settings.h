@@ -18,7 +18,7 @@ struct Settings {
   } scene;
   struct {
     std::string mode = "walk";  ///< "walk": cells at eye height above ground or terrain
-    double seed_size_m = 0.25;  ///< voxel edge; gaps narrower than two seeds may count as closed (DESIGN §3)
+    double seed_size_m = 0.125;  ///< a gap of two seeds stays open, a narrower one may close; a voxel is four
     double eye_height_m = 1.7;  ///< above ground, +- 0.25 m
   } navigation;
   struct {
