@@ -7,16 +7,17 @@
 
 #include "scene/error.h"
 #include "tests/worker/mesh.h"
+#include "worker/brick_grid.h"
 
 namespace veduta {
 namespace {
 
 TEST(GridFrame, LiesOnTheLatticeWithRoomAroundAndAboveAndNoneBelow) {
   const Box bounds{{-3.1f, 0.3f, 10.2f}, {4.9f, 2.0f, 12.7f}};
-  for (const double size : {0.25, 0.3, 1.0, 7.0}) {
+  for (const double size : {0.25, 0.3, 0.2, 1.0, 7.0}) {
     const GridFrame f = make_frame(bounds, size);
     for (const double lower : {f.lower_x, f.lower_y, f.lower_z})
-      EXPECT_NEAR(lower / size, std::round(lower / size), 1e-9) << size;
+      EXPECT_NEAR(lower / size + 1e-3, std::round(lower / size), 1e-9) << size;
     EXPECT_LE(f.lower_x + 2 * size, bounds.lower.x);
     EXPECT_LE(f.lower_y + 2 * size, bounds.lower.y);
     EXPECT_LE(f.lower_z, bounds.lower.z);
@@ -40,7 +41,7 @@ TEST(GridFrame, FindsTheVoxelOfACoordinateAndClamps) {
   EXPECT_FLOAT_EQ(box.lower.x, static_cast<float>(f.x(1)));
   EXPECT_FLOAT_EQ(box.upper.x, static_cast<float>(f.x(3)));
   EXPECT_FLOAT_EQ(box.upper.y - box.lower.y, 0.25f);
-  EXPECT_FLOAT_EQ(box.upper.z, 1.25f);
+  EXPECT_FLOAT_EQ(box.upper.z, static_cast<float>(f.z(5)));
 }
 
 TEST(GridFrame, ASeedThatAsksForTooMuchIsRefusedWithOneThatFits) {
@@ -55,7 +56,9 @@ TEST(GridFrame, ASeedThatAsksForTooMuchIsRefusedWithOneThatFits) {
       const char* advice = std::strstr(error.what(), "seed of about ");
       ASSERT_NE(advice, nullptr) << error.what();
       const double seed_m = std::atof(advice + std::strlen("seed of about "));
-      EXPECT_NO_THROW(make_frame(bounds, seed_m, limit)) << error.what();
+      EXPECT_NO_THROW(make_frame(bounds, seeds_per_voxel * seed_m, limit)) << error.what();
+      EXPECT_THROW(make_frame(bounds, 0.5 * seeds_per_voxel * seed_m, limit), Error)
+          << "a much finer one would do";
     }
   }
 }

@@ -69,36 +69,6 @@ TEST(FloodFill, AClosedBoxIsSealedAndTheStreetIsNot) {
   EXPECT_TRUE(free_at(free, 2.6, 2.6, 4.6));
 }
 
-/// A box of 5 m whose wall at x = 0 has a square hole of `edge` m at (y, z).
-Mesh box_with_hole(float edge, float y, float z) {
-  Mesh mesh;
-  mesh.ground(-3, -3, 9, 9, 0);
-  mesh.object();
-  mesh.quad({0, 0, 4}, {5, 0, 4}, {5, 5, 4}, {0, 5, 4});
-  mesh.quad({0, 0, 0}, {5, 0, 0}, {5, 0, 4}, {0, 0, 4});
-  mesh.quad({0, 5, 0}, {5, 5, 0}, {5, 5, 4}, {0, 5, 4});
-  mesh.quad({5, 0, 0}, {5, 5, 0}, {5, 5, 4}, {5, 0, 4});
-  mesh.quad({0, 0, 0}, {0, y, 0}, {0, y, 4}, {0, 0, 4});
-  mesh.quad({0, y + edge, 0}, {0, 5, 0}, {0, 5, 4}, {0, y + edge, 4});
-  mesh.quad({0, y, 0}, {0, y + edge, 0}, {0, y + edge, z}, {0, y, z});
-  mesh.quad({0, y, z + edge}, {0, y + edge, z + edge}, {0, y + edge, 4}, {0, y, 4});
-  return mesh;
-}
-
-TEST(FloodFill, AHoleOfTwoSeedsIsOpenAndOneBelowASeedIsClosed) {
-  Random random(2);
-  constexpr float seed = 0.25f;
-  for (int round = 0; round < 12; ++round) {
-    // Wherever the hole lies: on voxel boundaries in the first round.
-    const float y = round == 0 ? 2.0f : static_cast<float>(random.real(1, 3));
-    const float z = round == 0 ? 1.0f : static_cast<float>(random.real(1, 3));
-    EXPECT_TRUE(free_at(free_of(box_with_hole(2.02f * seed, y, z).scene, seed), 2.6, 2.6, 2))
-        << y << ' ' << z;
-    EXPECT_FALSE(free_at(free_of(box_with_hole(0.98f * seed, y, z).scene, seed), 2.6, 2.6, 2))
-        << y << ' ' << z;
-  }
-}
-
 TEST(FloodFill, ACourtyardOpenToTheSkyIsFree) {
   Mesh mesh;
   mesh.ground(-3, -3, 15, 15, 0);
@@ -163,32 +133,6 @@ TEST(Erode, OneAfterTheOtherIsBothTogether) {
   erode(twice, 2, 1, 3);
   EXPECT_EQ(test::differences(once, twice), 0);
   EXPECT_GT(once.count(), 0u);
-}
-
-TEST(SealedSpace, IsWhatHasNoFreeVoxelBesideIt) {
-  Random random(6);
-  for (const int nz : {12, 64, 70}) {
-    const BitGrid free = random_grid(random, 13, 11, nz, 0.02, false);
-    const BitGrid sealed = sealed_space(free);
-    EXPECT_GT(sealed.count(), 0u);
-    const GridFrame& f = free.frame();
-    test::each_voxel(f, [&](int i, int j, int k) {
-      bool expected = true;
-      for (int dj = -1; dj <= 1; ++dj) {
-        for (int di = -1; di <= 1; ++di) {
-          for (int dk = -1; dk <= 1; ++dk) {
-            const int a = i + di, b = j + dj, c = k + dk;
-            if (a < 0 || b < 0 || a >= f.nx || b >= f.ny || c >= f.nz) {
-              expected = false;  // beside and above the grid is open
-            } else if (c >= 0) {
-              expected = expected && !free.get(a, b, c);
-            }
-          }
-        }
-      }
-      ASSERT_EQ(sealed.get(i, j, k), expected) << i << ' ' << j << ' ' << k;
-    });
-  }
 }
 
 }  // namespace

@@ -13,11 +13,11 @@ using test::Random;
 
 const Box room{{-2, -2, 0}, {2, 2, 3}};
 
-/// Every voxel that a triangle touches is set; nothing is set that none comes within 2e-3 voxels of.
+/// Every voxel that a triangle touches is set; nothing is set that none comes within 1e-5 voxels of.
 void expect_between_references(const Scene& scene, const GridFrame& frame) {
   const BitGrid fast = seed_test(scene, frame).occupied;
   const BitGrid least = reference::seed_test(scene, frame, 0);
-  const BitGrid most = reference::seed_test(scene, frame, 2e-3 * frame.size_m);
+  const BitGrid most = reference::seed_test(scene, frame, 1e-5 * frame.size_m);
   int missing = 0, excess = 0;
   test::each_voxel(frame, [&](int i, int j, int k) {
     missing += least.get(i, j, k) && !fast.get(i, j, k);

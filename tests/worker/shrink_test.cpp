@@ -177,7 +177,9 @@ TEST(SealedShrinker, EveryWindowOfEveryBoxLiesInSealedSpace) {
 }
 
 BitGrid sealed_of(const Mesh& mesh) {
-  return sealed_space(flood_fill(seed_test(mesh.scene, make_frame(mesh.scene.bounds(), 0.25)).occupied));
+  const BitGrid occupied = seed_test(mesh.scene, make_frame(mesh.scene.bounds(), 0.25)).occupied;
+  BitGrid free = flood_fill(occupied);
+  return sealed_space(occupied, seed_bricks(mesh.scene, occupied), free);
 }
 
 size_t boxes_left(const Mesh& mesh, const ShrinkRequest& request) {
