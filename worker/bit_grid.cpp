@@ -7,9 +7,14 @@
 #include <cmath>
 
 #include "scene/error.h"
+#include "worker/brick_grid.h"
 
 namespace veduta {
 namespace {
+
+/// The lattice lies this part of a voxel beside the whole multiples. Models like whole multiples, and a wall in the plane between two
+/// voxels is in both: a gap of two seeds between two such walls would be closed.
+constexpr double aside_of_multiples = 1e-3;
 
 int clamped_index(double value, double lower, double size, int count) {
   return static_cast<int>(std::clamp(std::floor((value - lower) / size), 0.0, count - 1.0));
@@ -28,8 +33,8 @@ Box GridFrame::box(int i0, int i1, int j0, int j1, int k0, int k1) const {
 
 GridFrame make_frame(const Box& bounds, double size_m, uint64_t limit_bytes) {
   constexpr double pad = 2;
-  const auto first = [](float lower, double size) { return std::floor(lower / size); };
-  const auto last = [](float upper, double size) { return std::floor(upper / size) + 1; };
+  const auto first = [](float lower, double size) { return std::floor(lower / size + aside_of_multiples); };
+  const auto last = [](float upper, double size) { return std::floor(upper / size + aside_of_multiples) + 1; };
   const auto extent = [&](int axis, double size) { return last(bounds.upper[axis], size) - first(bounds.lower[axis], size); };
   const auto bytes_of = [&](double size) {
     return (extent(0, size) + 2 * pad) * (extent(1, size) + 2 * pad) * std::ceil((extent(2, size) + pad) / 64) * 8;
@@ -42,13 +47,14 @@ GridFrame make_frame(const Box& bounds, double size_m, uint64_t limit_bytes) {
     throw Error(ExitStatus::usage,
                 fmt::format("navigation.seed_size: a grid of {:.0f} x {:.0f} x {:.0f} voxels of {} m needs {:.1f} GB a bit plane "
                             "(limit {:.1f} GB); use a seed of about {:.3g} m or a smaller scene",
-                            nx, ny, nz, size_m, bytes * 1e-9, limit * 1e-9, 1.02 * fits));
+                            nx, ny, nz, size_m, bytes * 1e-9, limit * 1e-9, 1.02 * fits / seeds_per_voxel));
   }
   GridFrame frame;
   frame.size_m = size_m;
-  frame.lower_x = (first(bounds.lower.x, size_m) - pad) * size_m;
-  frame.lower_y = (first(bounds.lower.y, size_m) - pad) * size_m;
-  frame.lower_z = first(bounds.lower.z, size_m) * size_m;
+  const double aside = aside_of_multiples * size_m;
+  frame.lower_x = (first(bounds.lower.x, size_m) - pad) * size_m - aside;
+  frame.lower_y = (first(bounds.lower.y, size_m) - pad) * size_m - aside;
+  frame.lower_z = first(bounds.lower.z, size_m) * size_m - aside;
   frame.nx = static_cast<int>(nx), frame.ny = static_cast<int>(ny), frame.nz = static_cast<int>(nz);
   return frame;
 }

@@ -11,7 +11,7 @@ namespace veduta {
 
 /// Where the voxels lie: voxel (i, j, k) is the closed cube lower + size * [i, i+1] x [j, j+1] x [k, k+1].
 struct GridFrame {
-  double lower_x = 0, lower_y = 0, lower_z = 0;  ///< m, relative to the scene origin, whole multiples of size_m
+  double lower_x = 0, lower_y = 0, lower_z = 0;  ///< m, relative to the scene origin
   double size_m = 1;
   int nx = 0, ny = 0, nz = 0;
 
@@ -26,7 +26,7 @@ struct GridFrame {
   Box box(int i0, int i1, int j0, int j1, int k0, int k1) const;
 };
 
-/// The frame for a scene: the lattice of whole multiples of the seed size, with two free voxels around and above and none
+/// The frame for a scene: a lattice a thousandth of a voxel beside the whole multiples of its size, with two free voxels around and above and none
 /// below (what is below the scene is sealed, thesis fig. 4.16).
 /// \throw Error(usage) when the grid would need more than `limit_bytes` per bit plane, naming a seed size that fits.
 GridFrame make_frame(const Box& bounds, double size_m, uint64_t limit_bytes = 2'000'000'000);

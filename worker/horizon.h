@@ -15,15 +15,14 @@ class Horizon {
  public:
   Horizon() { slope_.fill(-1e30f); }
 
-  /// Does a box (in face coordinates, nearest depth `nearest_m` > 0) rise above it anywhere?
-  bool rises_above(const Box& b, float nearest_m) const {
-    const float highest = b.upper.y / (b.upper.y > 0 ? nearest_m : b.upper.z);
+  /// The slope below which all columns of a box (in face coordinates, nearest depth `nearest_m` > 0) are hidden already.
+  float hidden_below(const Box& b, float nearest_m) const {
     const auto [first, last] = columns(b, nearest_m);
-    for (int c = first; c <= last; ++c) {
-      if (highest > slope_[c]) return true;
-    }
-    return false;
+    return *std::min_element(slope_.begin() + first, slope_.begin() + last + 1);
   }
+
+  /// The highest slope under which a box is seen.
+  static float highest(const Box& b, float nearest_m) { return b.upper.y / (b.upper.y > 0 ? nearest_m : b.upper.z); }
 
   void add(const Box& b, float nearest_m) {
     if (b.lower.y > 0) return;  // floats above the eye: hides no ground

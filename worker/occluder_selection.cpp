@@ -71,7 +71,7 @@ void OccluderSelection::select_ring(const RingClusters& ring, int face, const gl
     box = to_face(face, relative_to(world, eye));
     nearest_m = std::max(nearest_depth(box), 1e-3f);  // not 0: depths are divided by
     return box.upper.z >= nearest_m && nearest_m <= ring.depth_limit_m && box.upper.z >= ring.depth_from_m &&
-           (!side || horizon.rises_above(box, nearest_m));
+           (!side || Horizon::highest(box, nearest_m) > horizon.hidden_below(box, nearest_m));
   };
   clusters_by_depth_.clear();
   for (uint32_t c = 0; c < ring.clusters.size(); ++c) {
@@ -89,8 +89,14 @@ void OccluderSelection::select_ring(const RingClusters& ring, int face, const gl
     for (const Near& candidate : boxes_by_depth_) {
       const Box& world = boxes_[candidate.index];
       if (!needed(world)) continue;
-      if (side) horizon.add(box, nearest_m);
-      add_sides(relative_to(world, eye), ring.depth_limit_m);
+      Box visible = relative_to(world, eye);
+      if (side) {
+        // What nearer boxes hide of it need not be drawn again; a part of an occluder is an occluder.
+        const float slope = horizon.hidden_below(box, nearest_m);
+        visible.lower.z = std::max(visible.lower.z, slope * (slope > 0 ? nearest_m : box.upper.z));
+        horizon.add(box, nearest_m);
+      }
+      add_sides(visible, ring.depth_limit_m);
     }
   }
 }

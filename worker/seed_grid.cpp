@@ -34,7 +34,7 @@ SeedGrid::SeedGrid(const GridFrame& frame)
       ground(static_cast<size_t>(frame.nx) * frame.ny, std::numeric_limits<float>::quiet_NaN()) {}
 
 void visit_touched_columns(const Scene& scene, const GridFrame& frame, const ColumnVisitor& visit) {
-  const double margin = frame.size_m * 1e-3;
+  const double margin = frame.size_m * 1e-6;  // more than doubles round
   // Triangles by the band of rows that they touch, so that bands run in parallel without sharing a column.
   constexpr int band_rows = 64;
   const int bands = (frame.ny + band_rows - 1) / band_rows;

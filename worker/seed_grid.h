@@ -15,7 +15,7 @@ struct SeedGrid {
   explicit SeedGrid(const GridFrame& frame);
 };
 
-/// Marks every voxel that a closed triangle of the scene touches. Exact up to a margin of a thousandth of a voxel, which
+/// Marks every voxel that a closed triangle of the scene touches. Exact up to a margin of a millionth of a voxel, which
 /// errs towards occupied. A scene without terrain has its ground at its lowest z.
 /// The thesis tests all pairs of triangles and cells and calls it slow (§7.2); here each triangle is clipped to the columns
 /// that its bounds cover, and the z-range of what is left is set as a run: O(voxels touched / 64).

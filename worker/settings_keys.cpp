@@ -173,7 +173,7 @@ const std::vector<Key>& settings_keys() {
       choice("navigation.mode", {"walk"}, "walk: cells at eye height above ground or terrain",
              [](Settings& s) -> std::string& { return s.navigation.mode; }),
       real("navigation.seed_size", 0.01, 10, "m",
-           "voxel edge; gaps narrower than two seeds may count as closed",
+           "a gap of two seeds stays open, a narrower one may close; a voxel is four seeds",
            [](Settings& s) -> double& { return s.navigation.seed_size_m; }),
       real("navigation.eye_height", 0.1, 100, "m", "of the eye above ground, +- 0.25 m",
            [](Settings& s) -> double& { return s.navigation.eye_height_m; }),

@@ -12,7 +12,7 @@
 namespace veduta {
 namespace {
 
-TEST(GridFrame, LiesOnTheLatticeWithRoomAroundAndAboveAndNoneBelow) {
+TEST(GridFrame, LiesBesideWholeMultiplesWithRoomAroundAndAboveAndNoneBelow) {
   const Box bounds{{-3.1f, 0.3f, 10.2f}, {4.9f, 2.0f, 12.7f}};
   for (const double size : {0.25, 0.3, 0.2, 1.0, 7.0}) {
     const GridFrame f = make_frame(bounds, size);
