@@ -13,7 +13,7 @@ namespace veduta {
 
 /// What is known of each cell from the journal: where its record lies.
 struct JournalEntry {
-  int32_t shard = -1;        ///< index into Journal::shards, -1: not baked yet
+  int32_t shard = -1;  ///< index into Journal::shards, -1: not baked yet
   uint64_t offset = 0;
   CellStatus status = CellStatus::baked;
 };
@@ -27,8 +27,9 @@ struct Journal {
   uint64_t duplicates = 0;                    ///< cells answered more than once, equally
 };
 
-/// Scans every shard of a run. The first record of a cell counts; a `baked` one replaces an `all_visible` one.
-/// \throw Error(bad_input) for damage in the middle, a cell number out of range, or two different answers for a cell;
+/// Scans every shard of a run. The first record of a cell counts; a `baked` one replaces an `all_visible`
+/// one. \throw Error(bad_input) for damage in the middle, a cell number out of range, or two different
+/// answers for a cell;
 ///   Error(other_job) for a shard of another job.
 Journal read_journal(const RunPaths& run, const std::string& fingerprint, uint32_t cell_count);
 
@@ -38,9 +39,10 @@ struct MergeResult {
   double elapsed_s = 0;
 };
 
-/// Merges a run directory into `output` (default: RunPaths::result()). Cells without a record are an error unless `partial`,
-/// which records them all visible. Safe at any time: the old file stays until the new one is whole and checked.
-/// \throw Error(stopped_early) when cells are missing and not `partial`; else as read_journal and write_pvs.
+/// Merges a run directory into `output` (default: RunPaths::result()). Cells without a record are an error
+/// unless `partial`, which records them all visible. Safe at any time: the old file stays until the new one
+/// is whole and checked. \throw Error(stopped_early) when cells are missing and not `partial`; else as
+/// read_journal and write_pvs.
 MergeResult merge_run(const RunPaths& run, const std::filesystem::path& output, bool partial);
 
 }  // namespace veduta

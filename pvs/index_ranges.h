@@ -1,5 +1,5 @@
-// Drawing without lists per slice: five orders of an object's triangles, in which each byte is one contiguous range
-// (DESIGN §6; in place of the index buffer per slice of thesis §5.1.2, Algorithm 5.1).
+// Drawing without lists per slice: five orders of an object's triangles, in which each byte is one contiguous
+// range (DESIGN §6; in place of the index buffer per slice of thesis §5.1.2, Algorithm 5.1).
 #pragma once
 
 #include <array>
@@ -27,14 +27,15 @@ struct ObjectRanges {
   uint8_t count = 0;
 };
 
-/// The five orders of a whole city. Object i's triangles stay in [triangle_begin, triangle_end) in each of them. Keys are
-/// sorted so that visible triangles come first: ascending for *_first, descending for *_last.
+/// The five orders of a whole city. Object i's triangles stay in [triangle_begin, triangle_end) in each of
+/// them. Keys are sorted so that visible triangles come first: ascending for *_first, descending for *_last.
 class IndexRanges {
  public:
   explicit IndexRanges(const City& city);
   /// Triangle numbers in this order, [T].
   const std::vector<uint32_t>& order(Order o) const { return orders_[static_cast<size_t>(o)]; }
-  /// The ranges that draw exactly the triangles for which draws(index, slices) holds. O(log triangles of the object).
+  /// The ranges that draw exactly the triangles for which draws(index, slices) holds. O(log triangles of the
+  /// object).
   ObjectRanges ranges(uint32_t object, VisibilityIndex index) const;
 
  private:

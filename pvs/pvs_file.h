@@ -1,4 +1,5 @@
-// city.pvs.h5 (DESIGN §9): reading it with every check, and writing it so that a crash leaves the old file or a whole one.
+// city.pvs.h5 (DESIGN §9): reading it with every check, and writing it so that a crash leaves the old file or
+// a whole one.
 #pragma once
 
 #include <cstdint>
@@ -17,24 +18,26 @@ namespace veduta {
 
 /// Attributes of the root group beside format, version, unit, up, crs and origin.
 struct PvsHeader {
-  std::string fingerprint;      ///< of scene content, settings and algorithm version
-  std::string config;           ///< the resolved configuration, TOML
-  std::string renderer;         ///< GL_RENDERER of the bake, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)"; several joined by "; "
-  bool complete = false;        ///< every cell has status baked
+  std::string fingerprint;  ///< of scene content, settings and algorithm version
+  std::string config;       ///< the resolved configuration, TOML
+  std::string
+      renderer;  ///< GL_RENDERER of the bake, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)"; several joined by "; "
+  bool complete = false;  ///< every cell has status baked
   bool conservative = true;
 };
 
-/// A file in memory, checked: every digest compared, every index in range, every offset monotone. Row `cell_row[c]` is
-/// entries [row_begin[r], row_begin[r+1]).
+/// A file in memory, checked: every digest compared, every index in range, every offset monotone. Row
+/// `cell_row[c]` is entries [row_begin[r], row_begin[r+1]).
 struct PvsFile {
   PvsHeader header;
   City city;
-  std::vector<uint32_t> cell_row;      ///< [C] index of a unique row
-  std::vector<CellStatus> cell_status; ///< [C]
-  std::vector<uint32_t> bake_us;       ///< [C] time of the bake of the cell, us
-  std::vector<uint64_t> row_begin;     ///< [R+1]
-  std::vector<PvsEntry> entries;       ///< [K]
-  std::string content_digest;          ///< 32 hex digits over the logical content; not over bake_us, config and renderer
+  std::vector<uint32_t> cell_row;       ///< [C] index of a unique row
+  std::vector<CellStatus> cell_status;  ///< [C]
+  std::vector<uint32_t> bake_us;        ///< [C] time of the bake of the cell, us
+  std::vector<uint64_t> row_begin;      ///< [R+1]
+  std::vector<PvsEntry> entries;        ///< [K]
+  std::string
+      content_digest;  ///< 32 hex digits over the logical content; not over bake_us, config and renderer
 
   /// The entries of a cell's row.
   struct Span {
@@ -46,7 +49,8 @@ struct PvsFile {
   };
   Span row(uint32_t cell) const;
 
-  /// The cell that holds the point, or -1. A point on a shared face belongs to the cell with the lowest number.
+  /// The cell that holds the point, or -1. A point on a shared face belongs to the cell with the lowest
+  /// number.
   int64_t find_cell(const glm::vec3& point) const;
 
   /// What find_cell looks in. read_pvs has made it; who changes city.cells makes it again. Made of another
@@ -60,10 +64,12 @@ struct PvsFile {
 ///   Error(input_output) when it cannot be read.
 PvsFile read_pvs(const std::filesystem::path& file);
 
-/// The temporary name that a process with this id writes to, beside `file`: to be removed when that process died.
+/// The temporary name that a process with this id writes to, beside `file`: to be removed when that process
+/// died.
 std::filesystem::path temporary_name(const std::filesystem::path& file, long pid);
 
-/// Where the writer asks for the row of cell c, c ascending; called once per cell. Memory does not grow with cells.
+/// Where the writer asks for the row of cell c, c ascending; called once per cell. Memory does not grow with
+/// cells.
 struct BakedCell {
   CellStatus status = CellStatus::all_visible;
   uint32_t bake_us = 0;
@@ -71,13 +77,14 @@ struct BakedCell {
 };
 using CellSource = std::function<BakedCell(uint32_t cell)>;
 
-/// Writes a complete file to a temporary name beside `file`, reads it back, compares the digests, syncs and renames.
-/// Equal rows are stored once. `header.complete` is set from the statuses seen.
-/// \return the content digest.
-/// \throw Error(input_output) when the disk is full or not writable; nothing is left behind.
-std::string write_pvs(const std::filesystem::path& file, const City& city, const PvsHeader& header, const CellSource& cells);
+/// Writes a complete file to a temporary name beside `file`, reads it back, compares the digests, syncs and
+/// renames. Equal rows are stored once. `header.complete` is set from the statuses seen. \return the content
+/// digest. \throw Error(input_output) when the disk is full or not writable; nothing is left behind.
+std::string write_pvs(const std::filesystem::path& file, const City& city, const PvsHeader& header,
+                      const CellSource& cells);
 
-/// The prepared city (`prepared/city.h5`): the same layout without /pvs and /cells rows, with the same checks.
+/// The prepared city (`prepared/city.h5`): the same layout without /pvs and /cells rows, with the same
+/// checks.
 void write_city(const std::filesystem::path& file, const City& city);
 City read_city(const std::filesystem::path& file);
 

@@ -1,4 +1,5 @@
-// Shards: append-only result files, one per worker and attempt (DESIGN §8). Not HDF5: those do not open after a kill.
+// Shards: append-only result files, one per worker and attempt (DESIGN §8). Not HDF5: those do not open after
+// a kill.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +23,8 @@ struct CellRecord {
   bool same_answer(const CellRecord& other) const { return status == other.status && row == other.row; }
 };
 
-/// The payload of a record, little-endian: u32 cell, u8 status, u32 bake_us, u32 count, then per entry u32 object, i8[3].
+/// The payload of a record, little-endian: u32 cell, u8 status, u32 bake_us, u32 count, then per entry u32
+/// object, i8[3].
 std::vector<std::byte> encode(const CellRecord& record);
 /// \throw Error(bad_input) when the bytes are not exactly one record.
 CellRecord decode_cell_record(const std::byte* data, size_t size);
@@ -54,14 +56,16 @@ class ShardWriter {
 struct ShardScan {
   std::string renderer;
   uint64_t records = 0;
-  uint64_t valid_bytes = 0;   ///< length of the longest valid prefix
-  uint64_t torn_bytes = 0;    ///< what follows it: a torn tail, to be baked again
+  uint64_t valid_bytes = 0;  ///< length of the longest valid prefix
+  uint64_t torn_bytes = 0;   ///< what follows it: a torn tail, to be baked again
 };
 
 /// Reads the longest valid prefix and hands out its records in order. The file is not changed.
 /// A shard whose header itself is torn (shorter than a header) counts as empty.
-/// \throw Error(other_job) when the header's fingerprint is another; Error(bad_input) when a damaged record is followed by
-///   a valid one (damage in the middle: file and byte offset are named); Error(input_output) when it cannot be read.
+/// \throw Error(other_job) when the header's fingerprint is another; Error(bad_input) when a damaged record
+/// is followed by
+///   a valid one (damage in the middle: file and byte offset are named); Error(input_output) when it cannot
+///   be read.
 ShardScan scan_shard(const std::filesystem::path& file, const std::string& fingerprint,
                      const std::function<void(CellRecord&&, uint64_t offset)>& visit);
 

@@ -21,8 +21,8 @@ static_assert(sizeof(TriangleSlices) == 6);
 
 /// The visible part of one object:
 ///   z = k >= 1: triangles whose last z-slice is >= k are visible (z = 1: all); z = 0 adds nothing;
-///   x = +k: triangles whose first x-slice is <= k; x = -k: triangles whose last x-slice is >= k+1; x = 0 adds nothing;
-///   y likewise. At most one of x and y is non-zero. A triangle is drawn when any byte says so.
+///   x = +k: triangles whose first x-slice is <= k; x = -k: triangles whose last x-slice is >= k+1; x = 0
+///   adds nothing; y likewise. At most one of x and y is non-zero. A triangle is drawn when any byte says so.
 struct VisibilityIndex {
   int8_t x = 0, y = 0, z = 0;
   bool operator==(const VisibilityIndex&) const = default;
@@ -32,8 +32,8 @@ static_assert(sizeof(VisibilityIndex) == 3);
 
 inline constexpr VisibilityIndex completely_visible{0, 0, 1};
 
-/// Does the index say that a triangle with these slices is drawn? Worked example: in an object of 4 x-slices, {x=+2, z=3}
-/// draws every triangle that begins in x-slice 1 or 2, and every one that reaches z-slice 3.
+/// Does the index say that a triangle with these slices is drawn? Worked example: in an object of 4 x-slices,
+/// {x=+2, z=3} draws every triangle that begins in x-slice 1 or 2, and every one that reaches z-slice 3.
 constexpr bool draws(VisibilityIndex index, TriangleSlices t) {
   if (index.z >= 1 && t.z_last >= index.z) return true;
   if (index.x > 0 && t.x_first <= index.x) return true;

@@ -1,8 +1,8 @@
 // Closed axis-aligned boxes, in metres relative to the scene origin.
 #pragma once
 
-#include <glm/vec3.hpp>
 #include <glm/common.hpp>
+#include <glm/vec3.hpp>
 #include <limits>
 
 namespace veduta {
@@ -19,7 +19,8 @@ struct Box {
   glm::vec3 center() const { return 0.5f * (lower + upper); }
   glm::vec3 half_extent() const { return 0.5f * (upper - lower); }
   bool contains(const glm::vec3& p) const {
-    return p.x >= lower.x && p.x <= upper.x && p.y >= lower.y && p.y <= upper.y && p.z >= lower.z && p.z <= upper.z;
+    return p.x >= lower.x && p.x <= upper.x && p.y >= lower.y && p.y <= upper.y && p.z >= lower.z &&
+           p.z <= upper.z;
   }
 };
 

@@ -6,12 +6,14 @@
 namespace veduta {
 namespace {
 
-uint64_t key(uint32_t a, uint32_t b) { return uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
+uint64_t key(uint32_t a, uint32_t b) {
+  return uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+}
 
 }  // namespace
 
-std::vector<Draft> terrain_skirt(const std::vector<Draft>& terrain, const std::vector<glm::vec3>& vertices, VertexPool& pool,
-                                 float bottom) {
+std::vector<Draft> terrain_skirt(const std::vector<Draft>& terrain, const std::vector<glm::vec3>& vertices,
+                                 VertexPool& pool, float bottom) {
   std::unordered_map<uint64_t, uint32_t> uses;
   for (const Draft& t : terrain) {
     for (int n = 0; n < 3; ++n) ++uses[key(t.corners[n], t.corners[(n + 1) % 3])];
@@ -30,7 +32,8 @@ std::vector<Draft> terrain_skirt(const std::vector<Draft>& terrain, const std::v
       const bool left = (pb.x - pa.x) * (pc.y - pa.y) - (pb.y - pa.y) * (pc.x - pa.x) > 0;
       if (!left) std::swap(a, b);
       const glm::vec3 top_a = vertices[a], top_b = vertices[b];  // copies: the pool may move the vertices
-      const uint32_t low_a = pool.index_of({top_a.x, top_a.y, bottom}), low_b = pool.index_of({top_b.x, top_b.y, bottom});
+      const uint32_t low_a = pool.index_of({top_a.x, top_a.y, bottom}),
+                     low_b = pool.index_of({top_b.x, top_b.y, bottom});
       add(t, a, low_a, low_b);
       add(t, a, low_b, b);
     }

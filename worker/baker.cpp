@@ -24,7 +24,8 @@ int local_rank() {
 
 std::vector<Box> parts_of(const Box& cell, int subdivide) {
   std::vector<Box> parts;
-  const glm::vec3 step = (cell.upper - cell.lower) / glm::vec3(static_cast<float>(subdivide), static_cast<float>(subdivide), 1);
+  const glm::vec3 step =
+      (cell.upper - cell.lower) / glm::vec3(static_cast<float>(subdivide), static_cast<float>(subdivide), 1);
   for (int j = 0; j < subdivide; ++j) {
     for (int i = 0; i < subdivide; ++i) {
       const glm::vec3 lower = cell.lower + step * glm::vec3(i, j, 0);
@@ -40,17 +41,22 @@ Baker::Baker(City city, const std::vector<Ring>& rings, const Settings& settings
       context_(gpu, local_rank()),
       counts_(city_.scene, city_.slices, city_.triangle_slices),
       slice_boxes_(slice_boxes(city_.scene, city_.slices, city_.triangle_slices)) {
-  panorama_ = std::make_unique<Panorama>(object_boxes(city_.scene), slice_boxes_, rings,
-                                         PanoramaOptions{settings.occlusion.resolution, part_half_extent(settings)});
+  panorama_ =
+      std::make_unique<Panorama>(object_boxes(city_.scene), slice_boxes_, rings,
+                                 PanoramaOptions{settings.occlusion.resolution, part_half_extent(settings)});
 }
 
 CellRecord Baker::bake(uint32_t cell) {
   const auto start = std::chrono::steady_clock::now();
   panorama_->begin_cell();
-  // An eye may be a seed away from free space, beside a wall whose voxels are taken: two seeds are on the safe side.
-  const float margin_m = 2 * city_.navigation.free.leaf_size_m;
+  // What is hidden from a centre is hidden from every eye within the half-extents of a part, so the centre
+  // may be moved to the middle of where eyes can be: from inside of a house, through its own near wall,
+  // hardly anything would be hidden. Eyes may stand between free space and a wall, whose voxels are taken:
+  // one voxel off.
+  const float margin_m = city_.navigation.free.leaf_size_m;
   for (const Box& part : parts_of(city_.cells[cell], subdivide_)) {
-    if (touches_free(city_.navigation.free, part, margin_m)) panorama_->add_part(part.center());
+    const Box eyes = navigable_part(city_.navigation.free, part, margin_m);
+    if (!eyes.empty()) panorama_->add_part(eyes.center());
   }
   const Occlusion& occlusion = panorama_->finish_cell();
   CellRecord record;
@@ -61,7 +67,8 @@ CellRecord Baker::bake(uint32_t cell) {
     if (!index.nothing()) record.row.push_back({o, index});
   }
   const auto elapsed = std::chrono::steady_clock::now() - start;
-  record.bake_us = static_cast<uint32_t>(std::chrono::duration_cast<std::chrono::microseconds>(elapsed).count());
+  record.bake_us =
+      static_cast<uint32_t>(std::chrono::duration_cast<std::chrono::microseconds>(elapsed).count());
   return record;
 }
 

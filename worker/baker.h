@@ -23,7 +23,8 @@ class Baker {
   std::string renderer() const { return context_.renderer(); }
   const City& city() const { return city_; }
 
-  /// The row of a cell. Parts that no viewer can be in are left out; the same answer whatever was baked before.
+  /// The row of a cell. Parts that no viewer can be in are left out; the same answer whatever was baked
+  /// before.
   CellRecord bake(uint32_t cell);
 
  private:

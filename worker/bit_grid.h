@@ -1,5 +1,5 @@
-// A dense grid of bits over the city: one bit a voxel, columns along z. The working form of the seed test, the flood fill
-// and the erosion, all of which handle 64 voxels an instruction.
+// A dense grid of bits over the city: one bit a voxel, columns along z. The working form of the seed test,
+// the flood fill and the erosion, all of which handle 64 voxels an instruction.
 #pragma once
 
 #include <cstdint>
@@ -26,9 +26,9 @@ struct GridFrame {
   Box box(int i0, int i1, int j0, int j1, int k0, int k1) const;
 };
 
-/// The frame for a scene: a lattice a thousandth of a voxel beside the whole multiples of its size, with two free voxels around and above and none
-/// below (what is below the scene is sealed, thesis fig. 4.16).
-/// \throw Error(usage) when the grid would need more than `limit_bytes` per bit plane, naming a seed size that fits.
+/// The frame for a scene: a lattice a thousandth of a voxel beside the whole multiples of its size, with two
+/// free voxels around and above and none below (what is below the scene is sealed, thesis fig. 4.16). \throw
+/// Error(usage) when the grid would need more than `limit_bytes` per bit plane, naming a seed size that fits.
 GridFrame make_frame(const Box& bounds, double size_m, uint64_t limit_bytes = 2'000'000'000);
 
 class BitGrid {
@@ -38,7 +38,9 @@ class BitGrid {
   const GridFrame& frame() const { return frame_; }
   int words() const { return words_; }  ///< 64-bit words in a column
   uint64_t* column(int i, int j) { return &bits_[(static_cast<size_t>(j) * frame_.nx + i) * words_]; }
-  const uint64_t* column(int i, int j) const { return &bits_[(static_cast<size_t>(j) * frame_.nx + i) * words_]; }
+  const uint64_t* column(int i, int j) const {
+    return &bits_[(static_cast<size_t>(j) * frame_.nx + i) * words_];
+  }
   bool get(int i, int j, int k) const { return column(i, j)[k >> 6] >> (k & 63) & 1; }
   void set(int i, int j, int k) { column(i, j)[k >> 6] |= uint64_t{1} << (k & 63); }
   /// Sets bits [k0, k1] of a column.

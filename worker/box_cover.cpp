@@ -1,7 +1,8 @@
-// Covering eroded sealed space with boxes. In slabs from the top down; in each, the bits that no box covers yet are taken
-// widest place first (by their Chebyshev distance to unset bits), grown to a maximal rectangle, and extended down as far as
-// it goes: a building becomes a few towers and blocks that stand in one another. Tiles are independent: rectangles grow out
-// of their tile, but only bits of it are owed, so tiles run in parallel and the result does not depend on their order.
+// Covering eroded sealed space with boxes. In slabs from the top down; in each, the bits that no box covers
+// yet are taken widest place first (by their Chebyshev distance to unset bits), grown to a maximal rectangle,
+// and extended down as far as it goes: a building becomes a few towers and blocks that stand in one another.
+// Tiles are independent: rectangles grow out of their tile, but only bits of it are owed, so tiles run in
+// parallel and the result does not depend on their order.
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -31,19 +32,25 @@ struct Column {
 
 class TileCover {
  public:
-  TileCover(const BitGrid& grid, int ti, int tj) : grid_(grid), frame_(grid.frame()), i0_(ti * tile - margin), j0_(tj * tile - margin) {}
+  TileCover(const BitGrid& grid, int ti, int tj)
+      : grid_(grid), frame_(grid.frame()), i0_(ti * tile - margin), j0_(tj * tile - margin) {}
 
   std::vector<Box> run(int lowest_top) {
     collect_columns(lowest_top);
     if (!any_own_) return {};
-    set_.resize(size_t{edge} * edge), distance_.resize(set_.size()), covered_.resize(size_t{tile} * tile * grid_.words());
-    for (int k = highest_ / slab_voxels * slab_voxels; k >= 0 && k + slab_voxels > lowest_top; k -= slab_voxels) cover_slab(k);
+    set_.resize(size_t{edge} * edge), distance_.resize(set_.size()),
+        covered_.resize(size_t{tile} * tile * grid_.words());
+    for (int k = highest_ / slab_voxels * slab_voxels; k >= 0 && k + slab_voxels > lowest_top;
+         k -= slab_voxels)
+      cover_slab(k);
     return std::move(boxes_);
   }
 
  private:
   static constexpr int edge = tile + 2 * margin;
-  static bool own(int i, int j) { return i >= margin && j >= margin && i < margin + tile && j < margin + tile; }
+  static bool own(int i, int j) {
+    return i >= margin && j >= margin && i < margin + tile && j < margin + tile;
+  }
   static size_t at(int i, int j) { return static_cast<size_t>(j) * edge + i; }
 
   void collect_columns(int lowest_top) {
@@ -61,7 +68,9 @@ class TileCover {
     }
   }
 
-  uint64_t* covered(int i, int j) { return &covered_[(static_cast<size_t>(j - margin) * tile + (i - margin)) * grid_.words()]; }
+  uint64_t* covered(int i, int j) {
+    return &covered_[(static_cast<size_t>(j - margin) * tile + (i - margin)) * grid_.words()];
+  }
 
   bool owed(int i, int j) {
     if (!set_[at(i, j)]) return false;
@@ -72,17 +81,20 @@ class TileCover {
     return false;
   }
 
-  /// Chebyshev distance of every set column of the region to the nearest unset one; the region's border counts as unset.
+  /// Chebyshev distance of every set column of the region to the nearest unset one; the region's border
+  /// counts as unset.
   void measure_distances() {
     const auto relax = [&](int i, int j, int d0, int d1, int d2, int d3) {
       uint8_t& here = distance_[at(i, j)];
       if (here == 0) return;
       const uint8_t* p = &here;
-      here = static_cast<uint8_t>(std::min<int>(here, 1 + std::min(std::min(p[d0], p[d1]), std::min(p[d2], p[d3]))));
+      here = static_cast<uint8_t>(
+          std::min<int>(here, 1 + std::min(std::min(p[d0], p[d1]), std::min(p[d2], p[d3]))));
     };
     for (size_t n = 0; n < set_.size(); ++n) distance_[n] = set_[n] ? 255 : 0;
     for (int n = 0; n < edge; ++n) {
-      for (const size_t border : {at(n, 0), at(n, edge - 1), at(0, n), at(edge - 1, n)}) distance_[border] = set_[border] ? 1 : 0;
+      for (const size_t border : {at(n, 0), at(n, edge - 1), at(0, n), at(edge - 1, n)})
+        distance_[border] = set_[border] ? 1 : 0;
     }
     for (int j = 1; j < edge - 1; ++j) {
       for (int i = 1; i < edge - 1; ++i) relax(i, j, -1, -edge - 1, -edge, -edge + 1);
@@ -156,7 +168,8 @@ class TileCover {
     if (static_cast<double>(seeds_.size()) * voxel_area < least_gain_m2) return;
     measure_distances();
     for (Seed& s : seeds_) s.distance = distance_[at(s.i, s.j)];
-    std::stable_sort(seeds_.begin(), seeds_.end(), [](const Seed& a, const Seed& b) { return a.distance > b.distance; });
+    std::stable_sort(seeds_.begin(), seeds_.end(),
+                     [](const Seed& a, const Seed& b) { return a.distance > b.distance; });
     tried_.assign(set_.size(), false);
     for (const Seed& s : seeds_) {
       if (!tried_[at(s.i, s.j)] && owed(s.i, s.j)) place_box(grow(s.i, s.j));
@@ -164,13 +177,15 @@ class TileCover {
   }
 
   void place_box(const Rect& r) {
-    const Rect mine{std::max(r.i0, margin), std::min(r.i1, margin + tile - 1), std::max(r.j0, margin), std::min(r.j1, margin + tile - 1)};
+    const Rect mine{std::max(r.i0, margin), std::min(r.i1, margin + tile - 1), std::max(r.j0, margin),
+                    std::min(r.j1, margin + tile - 1)};
     int64_t gain = 0;
     for (int j = mine.j0; j <= mine.j1; ++j) {
       for (int i = mine.i0; i <= mine.i1; ++i) gain += owed(i, j), tried_[at(i, j)] = true;
     }
     const double width_m = std::min(r.i1 - r.i0 + 1, r.j1 - r.j0 + 1) * frame_.size_m;
-    if (static_cast<double>(gain) * frame_.size_m * frame_.size_m < least_gain_m2 || width_m < least_width_m) return;
+    if (static_cast<double>(gain) * frame_.size_m * frame_.size_m < least_gain_m2 || width_m < least_width_m)
+      return;
     const auto [low, high] = shared_run(r);
     boxes_.push_back(frame_.box(i0_ + r.i0, i0_ + r.i1, j0_ + r.j0, j0_ + r.j1, low, high));
     for (int j = mine.j0; j <= mine.j1; ++j) {
@@ -187,15 +202,15 @@ class TileCover {
 
   const BitGrid& grid_;
   const GridFrame& frame_;
-  int i0_, j0_;                      // of the region's first column in the grid; may be negative
+  int i0_, j0_;  // of the region's first column in the grid; may be negative
   int highest_ = -1;
   bool any_own_ = false;
   std::vector<Column> columns_;
-  int k0_ = 0, k1_ = 0;              // the slab at hand
-  std::vector<uint8_t> set_;         // [edge * edge] is the slab set in this column?
+  int k0_ = 0, k1_ = 0;       // the slab at hand
+  std::vector<uint8_t> set_;  // [edge * edge] is the slab set in this column?
   std::vector<uint8_t> distance_;
   std::vector<uint8_t> tried_;
-  std::vector<uint64_t> covered_;    // columns of the tile
+  std::vector<uint64_t> covered_;  // columns of the tile
   std::vector<Seed> seeds_;
   std::vector<Box> boxes_;
 };
@@ -207,7 +222,8 @@ std::vector<Box> cover_with_boxes(const BitGrid& grid, double lowest_top_m) {
   const int tiles_x = (frame.nx + tile - 1) / tile, tiles_y = (frame.ny + tile - 1) / tile;
   std::vector<std::vector<Box>> found(static_cast<size_t>(tiles_x) * tiles_y);
   const int lowest_top = frame.layer(lowest_top_m);
-  tbb::parallel_for(0, tiles_x * tiles_y, [&](int t) { found[t] = TileCover(grid, t % tiles_x, t / tiles_x).run(lowest_top); });
+  tbb::parallel_for(0, tiles_x * tiles_y,
+                    [&](int t) { found[t] = TileCover(grid, t % tiles_x, t / tiles_x).run(lowest_top); });
   std::vector<Box> boxes;
   for (const std::vector<Box>& f : found) boxes.insert(boxes.end(), f.begin(), f.end());
   return boxes;

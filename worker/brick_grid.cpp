@@ -19,7 +19,8 @@ BrickGrid::BrickGrid(const BitGrid& occupied, Brick fill) : occupied_(occupied) 
   for (int j = 0; j < frame.ny; ++j) {
     for (int i = 0; i < frame.nx; ++i) {
       begin_.push_back(total);
-      for (int w = 0; w < occupied.words(); ++w) total += static_cast<size_t>(std::popcount(occupied.column(i, j)[w]));
+      for (int w = 0; w < occupied.words(); ++w)
+        total += static_cast<size_t>(std::popcount(occupied.column(i, j)[w]));
     }
   }
   bricks_.assign(total, fill);

@@ -1,5 +1,6 @@
-// The occupied voxels of the grid, looked at four times as closely: 4 x 4 x 4 seeds in a 64-bit word each. Walls are sharp and slits
-// between houses stay open without a fine grid of the whole city: the memory follows the surfaces.
+// The occupied voxels of the grid, looked at four times as closely: 4 x 4 x 4 seeds in a 64-bit word each.
+// Walls are sharp and slits between houses stay open without a fine grid of the whole city: the memory
+// follows the surfaces.
 #pragma once
 
 #include <cstdint>
@@ -37,8 +38,8 @@ class BrickGrid {
   std::vector<Brick> bricks_;
 };
 
-/// The seeds that a closed triangle touches, in the occupied voxels of the scene. Those of terrain count as touched whole: a
-/// sheet of ground has no slits, and is most of a city's surface.
+/// The seeds that a closed triangle touches, in the occupied voxels of the scene. Those of terrain count as
+/// touched whole: a sheet of ground has no slits, and is most of a city's surface.
 BrickGrid seed_bricks(const Scene& scene, const BitGrid& occupied);
 
 }  // namespace veduta

@@ -25,12 +25,13 @@ void fill_runs(uint64_t* seed, const uint64_t* pass, int words) {
   }
 }
 
-/// out[n] = AND of in[n - r .. n + r] for vectors of `width` words, `count` of them `stride` words apart; what is outside is
-/// zero. Doubling: windows of 2, 4, 8, ... then two that overlap.
+/// out[n] = AND of in[n - r .. n + r] for vectors of `width` words, `count` of them `stride` words apart;
+/// what is outside is zero. Doubling: windows of 2, 4, 8, ... then two that overlap.
 void and_window(uint64_t* data, size_t stride, int count, int width, int r, std::vector<uint64_t>& scratch) {
   const int padded = count + 2 * r;
   scratch.assign(static_cast<size_t>(padded) * width, 0);
-  for (int n = 0; n < count; ++n) std::copy_n(data + n * stride, width, &scratch[static_cast<size_t>(n + r) * width]);
+  for (int n = 0; n < count; ++n)
+    std::copy_n(data + n * stride, width, &scratch[static_cast<size_t>(n + r) * width]);
   const size_t total = static_cast<size_t>(padded) * width;
   int window = 1;
   for (; 2 * window <= 2 * r + 1; window *= 2) {

@@ -1,4 +1,5 @@
-// Free space: what a flood fill reaches from outside (DESIGN §3, thesis §3.1.3), and the occluder, its complement.
+// Free space: what a flood fill reaches from outside (DESIGN §3, thesis §3.1.3), and the occluder, its
+// complement.
 #pragma once
 
 #include "worker/bit_grid.h"
@@ -6,20 +7,22 @@
 
 namespace veduta {
 
-/// The voxels that are connected to the outside, over faces, through unoccupied voxels. The fill starts above the scene,
-/// never below it: nobody looks from underneath. Under a terrain it finds no way, since import closes its open edges.
+/// The voxels that are connected to the outside, over faces, through unoccupied voxels. The fill starts above
+/// the scene, never below it: nobody looks from underneath. Under a terrain it finds no way, since import
+/// closes its open edges.
 BitGrid flood_fill(const BitGrid& occupied);
 
-/// Sealed space O, by seeds. The fill goes on from `free` into the occupied voxels, seed by seed, and through slits of two seeds
-/// into what lies behind, which then is free as well (`free` is updated). A voxel is sealed when it is not free and no seed that the fill
-/// reached lies in it or beside it (over a face, edge or corner). A point of it is sealed: a path to it from free space enters
-/// through a seed that a surface passes; a gap narrower than two seeds counts as closed. Seeds beside the reached ones are
-/// left out because a surface passes *somewhere* inside them: their outer part would hide what is in plain sight. Party walls
+/// Sealed space O, by seeds. The fill goes on from `free` into the occupied voxels, seed by seed, and through
+/// slits of two seeds into what lies behind, which then is free as well (`free` is updated). A voxel is
+/// sealed when it is not free and no seed that the fill reached lies in it or beside it (over a face, edge or
+/// corner). A point of it is sealed: a path to it from free space enters through a seed that a surface
+/// passes; a gap narrower than two seeds counts as closed. Seeds beside the reached ones are left out because
+/// a surface passes *somewhere* inside them: their outer part would hide what is in plain sight. Party walls
 /// stay in, so touching houses fuse.
 BitGrid sealed_space(const BitGrid& occupied, const BrickGrid& seeds, BitGrid& free);
 
-/// The voxels all of whose neighbours within (rx, ry, rz) voxels are set (erosion by a box). Voxels beside and above the grid
-/// count as not set, those below it as set. Linear in the grid's words.
+/// The voxels all of whose neighbours within (rx, ry, rz) voxels are set (erosion by a box). Voxels beside
+/// and above the grid count as not set, those below it as set. Linear in the grid's words.
 void erode(BitGrid& grid, int rx, int ry, int rz);
 
 }  // namespace veduta

@@ -9,20 +9,24 @@
 
 namespace veduta {
 
-/// Keeps, for each column of a side face, the highest up / forward below which nearer boxes hide everything: they reach
-/// down below the eye. Only used to leave occluders out, which errs towards visible; so it need not be exact.
+/// Keeps, for each column of a side face, the highest up / forward below which nearer boxes hide everything:
+/// they reach down below the eye. Only used to leave occluders out, which errs towards visible; so it need
+/// not be exact.
 class Horizon {
  public:
   Horizon() { slope_.fill(-1e30f); }
 
-  /// The slope below which all columns of a box (in face coordinates, nearest depth `nearest_m` > 0) are hidden already.
+  /// The slope below which all columns of a box (in face coordinates, nearest depth `nearest_m` > 0) are
+  /// hidden already.
   float hidden_below(const Box& b, float nearest_m) const {
     const auto [first, last] = columns(b, nearest_m);
     return *std::min_element(slope_.begin() + first, slope_.begin() + last + 1);
   }
 
   /// The highest slope under which a box is seen.
-  static float highest(const Box& b, float nearest_m) { return b.upper.y / (b.upper.y > 0 ? nearest_m : b.upper.z); }
+  static float highest(const Box& b, float nearest_m) {
+    return b.upper.y / (b.upper.y > 0 ? nearest_m : b.upper.z);
+  }
 
   void add(const Box& b, float nearest_m) {
     if (b.lower.y > 0) return;  // floats above the eye: hides no ground
@@ -44,7 +48,9 @@ class Horizon {
   static std::pair<int, int> columns(const Box& b, float nearest_m) {
     const float left = b.lower.x / (b.lower.x < 0 ? nearest_m : b.upper.z);
     const float right = b.upper.x / (b.upper.x > 0 ? nearest_m : b.upper.z);
-    const auto column = [](float ratio) { return static_cast<int>((std::clamp(ratio, -1.0f, 0.99999f) + 1.0f) * (0.5f * count)); };
+    const auto column = [](float ratio) {
+      return static_cast<int>((std::clamp(ratio, -1.0f, 0.99999f) + 1.0f) * (0.5f * count));
+    };
     return {column(left), column(right)};
   }
 

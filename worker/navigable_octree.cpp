@@ -1,4 +1,5 @@
-// Building and asking the octree of navigable space (thesis §3.1.4: contraction of the free cells into larger blocks).
+// Building and asking the octree of navigable space (thesis §3.1.4: contraction of the free cells into larger
+// blocks).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,7 +11,8 @@ namespace {
 
 constexpr uint32_t none = 0, all = 1, mixed = 2;
 
-/// Contracts from the top: a node is only opened where cells lie, so the cost follows the cells and not the city.
+/// Contracts from the top: a node is only opened where cells lie, so the cost follows the cells and not the
+/// city.
 class Builder {
  public:
   Builder(const BitGrid& free, const std::vector<Box>& cells) : free_(free), cells_(cells) {}
@@ -18,14 +20,16 @@ class Builder {
   FreeOctree build() {
     const GridFrame& frame = free_.frame();
     FreeOctree tree;
-    tree.lower = {static_cast<float>(frame.lower_x), static_cast<float>(frame.lower_y), static_cast<float>(frame.lower_z)};
+    tree.lower = {static_cast<float>(frame.lower_x), static_cast<float>(frame.lower_y),
+                  static_cast<float>(frame.lower_z)};
     tree.leaf_size_m = static_cast<float>(frame.size_m);
     tree.depth = 1;
     while ((1 << tree.depth) < std::max({frame.nx, frame.ny, frame.nz})) ++tree.depth;
     std::vector<uint32_t> candidates(cells_.size());
     for (uint32_t c = 0; c < cells_.size(); ++c) candidates[c] = c;
     const uint32_t state = node(0, 0, 0, static_cast<int>(tree.depth), candidates);
-    if (state != mixed) {  // nothing navigable: a tree without nodes. (All of a cube cannot be: its border is padding.)
+    if (state != mixed) {  // nothing navigable: a tree without nodes. (All of a cube cannot be: its border is
+                           // padding.)
       return tree;
     }
     // Breadth first, so that the mixed children of a node are consecutive.
@@ -62,8 +66,8 @@ class Builder {
       for (const uint32_t cell : candidates) {
         const Box& b = cells_[cell];
         // Sharing only a face is not lying in it.
-        if (b.lower.x < box.upper.x && b.upper.x > box.lower.x && b.lower.y < box.upper.y && b.upper.y > box.lower.y &&
-            b.lower.z < box.upper.z && b.upper.z > box.lower.z) {
+        if (b.lower.x < box.upper.x && b.upper.x > box.lower.x && b.lower.y < box.upper.y &&
+            b.upper.y > box.lower.y && b.lower.z < box.upper.z && b.upper.z > box.lower.z) {
           inside.push_back(cell);
         }
       }
@@ -83,32 +87,37 @@ class Builder {
   std::vector<Node> nodes_;  // children before parents; the root is last
 };
 
-bool touches(const FreeOctree& tree, uint32_t node, glm::vec3 lower, float edge, const Box& box) {
-  uint32_t child = tree.first_child[node];
+/// Extends `found` by what of a node's navigable leaves, grown by `margin`, lies in the box.
+void collect(const FreeOctree& tree, uint32_t node, glm::vec3 lower, float edge, const Box& box, float margin,
+             Box& found) {
+  uint32_t next_child = tree.first_child[node];
   for (int k = 0; k < 8; ++k) {
     const uint32_t state = tree.states[node] >> 2 * k & 3;
-    const uint32_t here = child;
-    if (state == mixed) ++child;
+    const uint32_t child = state == mixed ? next_child++ : 0;
     if (state == none) continue;
     const glm::vec3 l = lower + 0.5f * edge * glm::vec3(k & 1, k >> 1 & 1, k >> 2);
-    const glm::vec3 u = l + 0.5f * edge;
-    if (l.x > box.upper.x || l.y > box.upper.y || l.z > box.upper.z || u.x < box.lower.x || u.y < box.lower.y ||
-        u.z < box.lower.z) {
-      continue;
+    const Box inside{glm::max(l - margin, box.lower), glm::min(l + 0.5f * edge + margin, box.upper)};
+    if (inside.empty()) continue;
+    if (state == all) {
+      found.extend(inside);
+    } else {
+      collect(tree, child, l, 0.5f * edge, box, margin, found);
     }
-    if (state == all || touches(tree, here, l, 0.5f * edge, box)) return true;
   }
-  return false;
 }
 
 }  // namespace
 
-FreeOctree navigable_octree(const BitGrid& free, const std::vector<Box>& cells) { return Builder(free, cells).build(); }
+FreeOctree navigable_octree(const BitGrid& free, const std::vector<Box>& cells) {
+  return Builder(free, cells).build();
+}
 
-bool touches_free(const FreeOctree& octree, const Box& box, float margin_m) {
-  if (octree.states.empty()) return false;
-  const Box grown{box.lower - margin_m, box.upper + margin_m};
-  return touches(octree, 0, octree.lower, octree.leaf_size_m * static_cast<float>(1u << octree.depth), grown);
+Box navigable_part(const FreeOctree& octree, const Box& box, float margin_m) {
+  Box found;
+  if (octree.states.empty()) return found;
+  collect(octree, 0, octree.lower, octree.leaf_size_m * static_cast<float>(1u << octree.depth), box, margin_m,
+          found);
+  return found;
 }
 
 }  // namespace veduta

@@ -27,7 +27,8 @@ std::vector<Box> sorted_by_place(const std::vector<Box>& boxes) {
   std::vector<std::pair<uint64_t, uint32_t>> keys;
   for (uint32_t b = 0; b < boxes.size(); ++b) {
     const glm::vec3 p = (boxes[b].center() - all.lower) * scale;
-    keys.emplace_back(spread_bits(static_cast<uint32_t>(p.x)) | spread_bits(static_cast<uint32_t>(p.y)) << 1, b);
+    keys.emplace_back(spread_bits(static_cast<uint32_t>(p.x)) | spread_bits(static_cast<uint32_t>(p.y)) << 1,
+                      b);
   }
   std::sort(keys.begin(), keys.end());
   std::vector<Box> sorted;
@@ -35,7 +36,9 @@ std::vector<Box> sorted_by_place(const std::vector<Box>& boxes) {
   return sorted;
 }
 
-Box relative_to(const Box& box, const glm::vec3& eye) { return {box.lower - eye, box.upper - eye}; }
+Box relative_to(const Box& box, const glm::vec3& eye) {
+  return {box.lower - eye, box.upper - eye};
+}
 
 }  // namespace
 
@@ -46,8 +49,11 @@ OccluderSelection::OccluderSelection(const std::vector<Ring>& rings) {
     from = ring.depth_limit_m;
     const std::vector<Box> sorted = sorted_by_place(ring.boxes);
     for (size_t b = 0; b < sorted.size(); b += cluster_size) {
-      Cluster cluster{{}, static_cast<uint32_t>(boxes_.size()), static_cast<uint32_t>(std::min(cluster_size, sorted.size() - b))};
-      for (size_t n = b; n < b + cluster.count; ++n) cluster.bounds.extend(sorted[n]), boxes_.push_back(sorted[n]);
+      Cluster cluster{{},
+                      static_cast<uint32_t>(boxes_.size()),
+                      static_cast<uint32_t>(std::min(cluster_size, sorted.size() - b))};
+      for (size_t n = b; n < b + cluster.count; ++n)
+        cluster.bounds.extend(sorted[n]), boxes_.push_back(sorted[n]);
       clusters.clusters.push_back(cluster);
     }
     rings_.push_back(std::move(clusters));
@@ -63,7 +69,8 @@ const std::vector<OccluderVertex>& OccluderSelection::select(int face, const glm
   return vertices_;
 }
 
-void OccluderSelection::select_ring(const RingClusters& ring, int face, const glm::vec3& eye, Horizon& horizon) {
+void OccluderSelection::select_ring(const RingClusters& ring, int face, const glm::vec3& eye,
+                                    Horizon& horizon) {
   const bool side = face < 4;  // the top face has no horizon; few boxes reach it
   Box box;                     // in face coordinates
   float nearest_m = 0;
@@ -89,14 +96,8 @@ void OccluderSelection::select_ring(const RingClusters& ring, int face, const gl
     for (const Near& candidate : boxes_by_depth_) {
       const Box& world = boxes_[candidate.index];
       if (!needed(world)) continue;
-      Box visible = relative_to(world, eye);
-      if (side) {
-        // What nearer boxes hide of it need not be drawn again; a part of an occluder is an occluder.
-        const float slope = horizon.hidden_below(box, nearest_m);
-        visible.lower.z = std::max(visible.lower.z, slope * (slope > 0 ? nearest_m : box.upper.z));
-        horizon.add(box, nearest_m);
-      }
-      add_sides(visible, ring.depth_limit_m);
+      if (side) horizon.add(box, nearest_m);
+      add_sides(relative_to(world, eye), ring.depth_limit_m);
     }
   }
 }
@@ -107,7 +108,8 @@ void OccluderSelection::add_sides(const Box& relative, float depth_limit_m) {
     if (!below && relative.upper[axis] >= 0) continue;  // the eye is between the two sides: neither faces it
     const float plane = below ? relative.lower[axis] : relative.upper[axis];
     const int a = (axis + 1) % 3, b = (axis + 2) % 3;
-    for (const auto& [upper_a, upper_b] : {std::pair{false, false}, {true, false}, {true, true}, {false, true}}) {
+    for (const auto& [upper_a, upper_b] :
+         {std::pair{false, false}, {true, false}, {true, true}, {false, true}}) {
       OccluderVertex corner(0, 0, 0, depth_limit_m);
       corner[axis] = plane;
       corner[a] = upper_a ? relative.upper[a] : relative.lower[a];

@@ -1,4 +1,5 @@
-// Which occluders one face of a panorama needs ("model only what a scene needs"), and what of them can face the eye. No GL.
+// Which occluders one face of a panorama needs ("model only what a scene needs"), and what of them can face
+// the eye. No GL.
 #pragma once
 
 #include <glm/vec4.hpp>
@@ -19,10 +20,11 @@ class OccluderSelection {
   /// Most vertices that one call can give.
   size_t capacity() const { return boxes_.size() * vertices_per_box; }
 
-  /// The quads that matter to a face, nearest boxes first, four vertices a quad, in order around it. Boxes that reach into the
-  /// face's frustum, begin before their ring's depth limit, do not end before the limit of the ring before (which draws the
-  /// same occluders with less taken off), and stand out above the horizon of the nearer ones; of each, the sides that face
-  /// the eye. To leave an occluder out errs towards visible. Valid until the next call; allocates nothing.
+  /// The quads that matter to a face, nearest boxes first, four vertices a quad, in order around it. Boxes
+  /// that reach into the face's frustum, begin before their ring's depth limit, do not end before the limit
+  /// of the ring before (which draws the same occluders with less taken off), and stand out above the horizon
+  /// of the nearer ones; of each, the sides that face the eye. To leave an occluder out errs towards visible.
+  /// Valid until the next call; allocates nothing.
   const std::vector<OccluderVertex>& select(int face, const glm::vec3& eye);
 
  private:
@@ -38,7 +40,9 @@ class OccluderSelection {
   struct Near {
     float depth_m;
     uint32_t index;
-    bool operator<(const Near& other) const { return depth_m < other.depth_m || (depth_m == other.depth_m && index < other.index); }
+    bool operator<(const Near& other) const {
+      return depth_m < other.depth_m || (depth_m == other.depth_m && index < other.index);
+    }
   };
 
   void select_ring(const RingClusters& ring, int face, const glm::vec3& eye, Horizon& horizon);

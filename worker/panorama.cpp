@@ -16,16 +16,26 @@ namespace veduta {
 namespace {
 
 /// Binding points of the shaders' buffers.
-enum Binding : GLuint { pyramid_binding = 0, boxes_binding = 1, answers_binding = 2, slices_binding = 3, now_binding = 4 };
+enum Binding : GLuint {
+  pyramid_binding = 0,
+  boxes_binding = 1,
+  answers_binding = 2,
+  slices_binding = 3,
+  now_binding = 4
+};
 
 void allocate(const GlBuffer& buffer, GLuint binding, size_t bytes, const void* data) {
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffer.id());
-  glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(std::max<size_t>(bytes, 4)), nullptr, GL_DYNAMIC_COPY);
-  if (data != nullptr && bytes > 0) glBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(bytes), data);
+  glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(std::max<size_t>(bytes, 4)), nullptr,
+               GL_DYNAMIC_COPY);
+  if (data != nullptr && bytes > 0)
+    glBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(bytes), data);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.id());
 }
 
-GLuint groups(size_t items, size_t size) { return static_cast<GLuint>((items + size - 1) / size); }
+GLuint groups(size_t items, size_t size) {
+  return static_cast<GLuint>((items + size - 1) / size);
+}
 
 }  // namespace
 
@@ -48,7 +58,7 @@ struct Panorama::State {
   GlBuffer pyramid, boxes, answers, slices, seen_now;
   int levels = 0;
   size_t objects = 0, vertical_slices = 0;
-  std::vector<uint32_t> unseen;   // the answers before any part
+  std::vector<uint32_t> unseen;  // the answers before any part
   std::vector<uint32_t> read_back;
   Occlusion occlusion;
 
@@ -71,7 +81,8 @@ void Panorama::State::make_targets() {
     glDrawBuffer(GL_NONE);
     glReadBuffer(GL_NONE);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-      throw Error(ExitStatus::defect, "occlusion: the driver takes no 32-bit float depth array of " + std::to_string(r) + " pixels");
+      throw Error(ExitStatus::defect, "occlusion: the driver takes no 32-bit float depth array of " +
+                                          std::to_string(r) + " pixels");
     }
   }
   size_t texels = 0;
@@ -88,13 +99,16 @@ void Panorama::State::make_quads() {
   const size_t capacity = std::max<size_t>(occluders.capacity(), 4);
   glBindVertexArray(quads.id());
   glBindBuffer(GL_ARRAY_BUFFER, quad_vertices.id());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(capacity * sizeof(OccluderVertex)), nullptr, GL_STREAM_DRAW);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(capacity * sizeof(OccluderVertex)), nullptr,
+               GL_STREAM_DRAW);
   glEnableVertexAttribArray(0);
   glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(OccluderVertex), nullptr);
   std::vector<uint32_t> indices;
-  for (uint32_t v = 0; v + 4 <= capacity; v += 4) indices.insert(indices.end(), {v, v + 1, v + 2, v, v + 2, v + 3});
+  for (uint32_t v = 0; v + 4 <= capacity; v += 4)
+    indices.insert(indices.end(), {v, v + 1, v + 2, v, v + 2, v + 3});
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, quad_indices.id());
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(uint32_t)), indices.data(), GL_STATIC_DRAW);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(uint32_t)),
+               indices.data(), GL_STATIC_DRAW);
 }
 
 void Panorama::State::draw_face(int face, const glm::vec3& eye) {
@@ -104,7 +118,8 @@ void Panorama::State::draw_face(int face, const glm::vec3& eye) {
   glUniformMatrix3fv(draw.uniform("face_from_world"), 1, GL_FALSE, glm::value_ptr(rotation));
   const std::vector<OccluderVertex>& vertices = occluders.select(face, eye);
   if (vertices.empty()) return;
-  glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(vertices.size() * sizeof(OccluderVertex)), vertices.data());
+  glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(vertices.size() * sizeof(OccluderVertex)),
+                  vertices.data());
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(vertices.size() / 4 * 6), GL_UNSIGNED_INT, nullptr);
 }
 
@@ -144,8 +159,8 @@ void Panorama::State::test(const Program& program, size_t items, const glm::vec3
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-Panorama::Panorama(const std::vector<Box>& object_boxes, const SliceBoxes& slices, const std::vector<Ring>& rings,
-                   const PanoramaOptions& options)
+Panorama::Panorama(const std::vector<Box>& object_boxes, const SliceBoxes& slices,
+                   const std::vector<Ring>& rings, const PanoramaOptions& options)
     : state_(std::make_unique<State>(rings, options)) {
   State& s = *state_;
   s.make_targets();
@@ -178,7 +193,8 @@ Panorama::~Panorama() = default;
 void Panorama::begin_cell() {
   const State& s = *state_;
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, s.answers.id());
-  glBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(s.unseen.size() * sizeof(uint32_t)), s.unseen.data());
+  glBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(s.unseen.size() * sizeof(uint32_t)),
+                  s.unseen.data());
 }
 
 void Panorama::add_part(const glm::vec3& center) {
@@ -199,9 +215,11 @@ void Panorama::add_part(const glm::vec3& center) {
 const Occlusion& Panorama::finish_cell() {
   State& s = *state_;
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, s.answers.id());
-  glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(s.read_back.size() * sizeof(uint32_t)), s.read_back.data());
+  glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0,
+                     static_cast<GLsizeiptr>(s.read_back.size() * sizeof(uint32_t)), s.read_back.data());
   std::copy_n(s.read_back.begin(), s.objects, s.occlusion.visible.begin());
-  std::copy(s.read_back.begin() + static_cast<std::ptrdiff_t>(s.objects), s.read_back.end(), s.occlusion.occluded.begin());
+  std::copy(s.read_back.begin() + static_cast<std::ptrdiff_t>(s.objects), s.read_back.end(),
+            s.occlusion.occluded.begin());
   return s.occlusion;
 }
 
@@ -211,7 +229,8 @@ std::vector<float> Panorama::read_face(int face) const {
   std::vector<float> all(face_count * r * r);
   glBindTexture(GL_TEXTURE_2D_ARRAY, s.depth.id());
   glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_DEPTH_COMPONENT, GL_FLOAT, all.data());
-  return {all.begin() + static_cast<std::ptrdiff_t>(face * r * r), all.begin() + static_cast<std::ptrdiff_t>((face + 1) * r * r)};
+  return {all.begin() + static_cast<std::ptrdiff_t>(face * r * r),
+          all.begin() + static_cast<std::ptrdiff_t>((face + 1) * r * r)};
 }
 
 }  // namespace veduta

@@ -1,5 +1,5 @@
-// Occlusion from one part of a view-cell at a time: the shrunk occluders drawn once into the faces of a cube, every occludee
-// tested against them in compute shaders (DESIGN §7, "panorama"; §4, T1-T3).
+// Occlusion from one part of a view-cell at a time: the shrunk occluders drawn once into the faces of a cube,
+// every occludee tested against them in compute shaders (DESIGN §7, "panorama"; §4, T1-T3).
 #pragma once
 
 #include <memory>
@@ -13,16 +13,18 @@ namespace veduta {
 
 /// What is hidden from all parts of a cell that were drawn.
 struct Occlusion {
-  std::vector<uint32_t> visible;   ///< [N] 0: the object is hidden from every part
-  std::vector<uint32_t> occluded;  ///< [vertical slices] how many of the lowest z-slices are hidden from every part
+  std::vector<uint32_t> visible;  ///< [N] 0: the object is hidden from every part
+  std::vector<uint32_t>
+      occluded;  ///< [vertical slices] how many of the lowest z-slices are hidden from every part
 };
 
 struct PanoramaOptions {
-  int resolution = 512;           ///< R: pixels along the edge of a cube face, a power of two
-  glm::vec3 half_extent_m{0};     ///< e: of a part, eye margin included; the one that the rings were shrunk for
+  int resolution = 512;        ///< R: pixels along the edge of a cube face, a power of two
+  glm::vec3 half_extent_m{0};  ///< e: of a part, eye margin included; the one that the rings were shrunk for
 };
 
-/// Holds a city's occluders and test boxes in GL buffers. Needs a current GL 4.3 context, the same for its whole life.
+/// Holds a city's occluders and test boxes in GL buffers. Needs a current GL 4.3 context, the same for its
+/// whole life.
 class Panorama {
  public:
   /// `object_boxes` [N] m; `slices` as made by slice_boxes for the same objects.
@@ -32,12 +34,14 @@ class Panorama {
 
   /// Forgets what was found: everything counts as hidden until a part sees it.
   void begin_cell();
-  /// Draws the occluders around the centre of a part and unites what it sees with what the others saw. Does not wait.
+  /// Draws the occluders around the centre of a part and unites what it sees with what the others saw. Does
+  /// not wait.
   void add_part(const glm::vec3& center);
   /// Reads all answers of the cell back, at once.
   const Occlusion& finish_cell();
 
-  /// The depth of a face after add_part, R*R values near/z (0: nothing), row 0 lowest; for tests. Faces: +x -x +y -y +z.
+  /// The depth of a face after add_part, R*R values near/z (0: nothing), row 0 lowest; for tests. Faces: +x
+  /// -x +y -y +z.
   std::vector<float> read_face(int face) const;
 
   static constexpr float near_m = 0.05f;

@@ -3,8 +3,9 @@
 
 namespace veduta::shader {
 
-/// Sides of occluder boxes, relative to the eye. gl_Position = (right, up, near, forward): depth = near / forward, exact in float
-/// over the whole range. Clipped at the ring's depth limit: beyond it a pixel is wider than the ring's h (T3).
+/// Sides of occluder boxes, relative to the eye. gl_Position = (right, up, near, forward): depth = near /
+/// forward, exact in float over the whole range. Clipped at the ring's depth limit: beyond it a pixel is
+/// wider than the ring's h (T3).
 inline constexpr const char* occluder_vertex = R"(#version 430 core
 layout(location = 0) in vec4 corner_and_limit;
 uniform mat3 face_from_world;
@@ -21,7 +22,8 @@ inline constexpr const char* occluder_fragment = R"(#version 430 core
 void main() {}
 )";
 
-/// One level of the depth pyramid: each texel keeps the farthest (smallest near / z) of 4 x 4 of the level below.
+/// One level of the depth pyramid: each texel keeps the farthest (smallest near / z) of 4 x 4 of the level
+/// below.
 inline constexpr const char* pyramid = R"(#version 430 core
 layout(local_size_x = 8, local_size_y = 8) in;
 uniform sampler2DArray depth;
@@ -139,8 +141,8 @@ void main() {
 }
 )";
 
-/// Vertical slices of the objects that this part sees: how high is each occluded? The height is monotone, so it is bisected
-/// (in place of the steps of Algorithm 4.2); what no part hides stays.
+/// Vertical slices of the objects that this part sees: how high is each occluded? The height is monotone, so
+/// it is bisected (in place of the steps of Algorithm 4.2); what no part hides stays.
 inline constexpr const char* slice_test = R"(
 uniform int objects, slices, first_slice_box;
 layout(std430, binding = 2) buffer Answers { uint answers[]; };     // [objects, objects + slices): occluded height

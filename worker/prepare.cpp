@@ -24,12 +24,14 @@ WalkCells walk_options(const Settings& settings, const Scene& scene) {
   options.eye_height_m = settings.navigation.eye_height_m;
   if (settings.cells.region) {
     const auto& r = *settings.cells.region;
-    options.region = {{r[0] - scene.origin[0], r[1] - scene.origin[1], r[2] - scene.origin[0], r[3] - scene.origin[1]}};
+    options.region = {
+        {r[0] - scene.origin[0], r[1] - scene.origin[1], r[2] - scene.origin[0], r[3] - scene.origin[1]}};
   }
   return options;
 }
 
-std::vector<Ring> shrink(const Settings& settings, const Scene& scene, const BitGrid& sealed, const std::vector<Box>& cells) {
+std::vector<Ring> shrink(const Settings& settings, const Scene& scene, const BitGrid& sealed,
+                         const std::vector<Box>& cells) {
   ShrinkRequest request;
   request.half_extent_m = part_half_extent(settings);
   request.resolution = settings.occlusion.resolution;
@@ -42,8 +44,8 @@ std::vector<Ring> shrink(const Settings& settings, const Scene& scene, const Bit
 
 void note_rings(const std::vector<Ring>& rings, std::vector<std::string>& notes) {
   for (const Ring& ring : rings) {
-    notes.push_back(fmt::format("ring h = {:.3f} m up to {:.0f} m: {} occluder boxes, {} triangles", ring.h_m, ring.depth_limit_m,
-                                ring.boxes.size(), 12 * ring.boxes.size()));
+    notes.push_back(fmt::format("ring h = {:.3f} m up to {:.0f} m: {} occluder boxes, {} triangles", ring.h_m,
+                                ring.depth_limit_m, ring.boxes.size(), 12 * ring.boxes.size()));
   }
 }
 
@@ -65,10 +67,11 @@ Prepared prepare(const Settings& settings, const StageProgress& progress) {
   City& city = prepared.city;
 
   stage("import");
-  ImportResult imported = import_scene({settings.scene.model.begin(), settings.scene.model.end()}, {settings.scene.terrain_tile_m});
+  ImportResult imported = import_scene({settings.scene.model.begin(), settings.scene.model.end()},
+                                       {settings.scene.terrain_tile_m});
   city.scene = std::move(imported.scene);
-  prepared.notes.push_back(fmt::format("{}: {} objects, {} triangles", imported.report.format, city.scene.objects.size(),
-                                       city.scene.triangles.size()));
+  prepared.notes.push_back(fmt::format("{}: {} objects, {} triangles", imported.report.format,
+                                       city.scene.objects.size(), city.scene.triangles.size()));
 
   stage("seed test");
   const GridFrame frame = make_frame(city.scene.bounds(), seeds_per_voxel * settings.navigation.seed_size_m);
@@ -87,9 +90,10 @@ Prepared prepare(const Settings& settings, const StageProgress& progress) {
   }
   city.navigation.free = navigable_octree(free, city.cells);
   city.navigation.ground = ground_heights(seeds, ground_step_m);
-  prepared.notes.push_back(fmt::format("grid {} x {} x {} voxels of {} m, {:.1f} % free; {} view-cells", frame.nx, frame.ny, frame.nz,
-                                       frame.size_m, 100.0 * static_cast<double>(free.count()) / (1.0 * frame.nx * frame.ny * frame.nz),
-                                       city.cells.size()));
+  prepared.notes.push_back(fmt::format(
+      "grid {} x {} x {} voxels of {} m, {:.1f} % free; {} view-cells", frame.nx, frame.ny, frame.nz,
+      frame.size_m, 100.0 * static_cast<double>(free.count()) / (1.0 * frame.nx * frame.ny * frame.nz),
+      city.cells.size()));
 
   stage("slices");
   city.slices = choose_slices(city.scene, settings.slices.max);

@@ -1,4 +1,5 @@
-// From a configuration to a city that can be baked: import, seed test, free space, view-cells, slices, shrunk occluders.
+// From a configuration to a city that can be baked: import, seed test, free space, view-cells, slices, shrunk
+// occluders.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +22,8 @@ struct Prepared {
   std::vector<std::string> notes;  ///< what people want to know: counts, sizes, what was dropped; a line each
 };
 
-/// \throw Error(bad_input) for a model that cannot be used or a scene with no place to stand in, Error(usage) for a seed that
+/// \throw Error(bad_input) for a model that cannot be used or a scene with no place to stand in, Error(usage)
+/// for a seed that
 ///   asks for too much memory.
 Prepared prepare(const Settings& settings, const StageProgress& progress = {});
 

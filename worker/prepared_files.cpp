@@ -5,8 +5,8 @@
 #include <cstring>
 #include <fstream>
 
-#include "pvs/run_paths.h"
 #include "pvs/pvs_file.h"
+#include "pvs/run_paths.h"
 #include "scene/error.h"
 #include "worker/prepare.h"
 
@@ -22,7 +22,9 @@ struct RingHeader {
 };
 static_assert(sizeof(RingHeader) == 16 && sizeof(Box) == 24);
 
-void append(std::string& bytes, const void* data, size_t size) { bytes.append(static_cast<const char*>(data), size); }
+void append(std::string& bytes, const void* data, size_t size) {
+  bytes.append(static_cast<const char*>(data), size);
+}
 
 }  // namespace
 
@@ -62,10 +64,13 @@ std::vector<Ring> read_occluders(const std::filesystem::path& run_directory) {
   const std::filesystem::path file = RunPaths{run_directory}.prepared() / "occluders.bin";
   std::ifstream in(file, std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(in)), {});
-  const auto damaged = [&] { return Error(ExitStatus::bad_input, file.string() + ": missing or damaged; bake again with --fresh"); };
+  const auto damaged = [&] {
+    return Error(ExitStatus::bad_input, file.string() + ": missing or damaged; bake again with --fresh");
+  };
   XXH64_hash_t digest = 0;
   constexpr size_t least = sizeof(occluder_magic) + sizeof(uint32_t) + sizeof(digest);
-  if (bytes.size() < least || std::memcmp(bytes.data(), occluder_magic, sizeof(occluder_magic)) != 0) throw damaged();
+  if (bytes.size() < least || std::memcmp(bytes.data(), occluder_magic, sizeof(occluder_magic)) != 0)
+    throw damaged();
   const size_t end = bytes.size() - sizeof(digest);
   std::memcpy(&digest, bytes.data() + end, sizeof(digest));
   if (digest != XXH3_64bits(bytes.data(), end)) throw damaged();

@@ -41,7 +41,8 @@ std::vector<Direction> directions(bool faces_only) {
   return all;
 }
 
-/// Seeds of one side moved to the opposite one: where they touch the neighbour in direction (dx, dy, dz), a face.
+/// Seeds of one side moved to the opposite one: where they touch the neighbour in direction (dx, dy, dz), a
+/// face.
 Brick across(Brick side, const Direction& d) {
   const int shift = 3 * (d.dx + 4 * d.dy + 16 * d.dz);
   return shift > 0 ? side >> shift : side << -shift;
@@ -49,10 +50,12 @@ Brick across(Brick side, const Direction& d) {
 
 /// All seeds of `pass` connected to `reached` over faces, inside a brick.
 Brick fill(Brick reached, Brick pass) {
-  static const Brick not_x0 = ~border(-1, 0, 0), not_x3 = ~border(1, 0, 0), not_y0 = ~border(0, -1, 0), not_y3 = ~border(0, 1, 0);
+  static const Brick not_x0 = ~border(-1, 0, 0), not_x3 = ~border(1, 0, 0), not_y0 = ~border(0, -1, 0),
+                     not_y3 = ~border(0, 1, 0);
   for (;;) {
-    const Brick grown = pass & (reached | (reached << 1 & not_x0) | (reached >> 1 & not_x3) | (reached << 4 & not_y0) |
-                                (reached >> 4 & not_y3) | reached << 16 | reached >> 16);
+    const Brick grown =
+        pass & (reached | (reached << 1 & not_x0) | (reached >> 1 & not_x3) | (reached << 4 & not_y0) |
+                (reached >> 4 & not_y3) | reached << 16 | reached >> 16);
     if (grown == reached) return reached;
     reached = grown;
   }
@@ -89,7 +92,8 @@ class SeedFlood {
             if (reached == 0) continue;
             exposed.set(i, j, k);
             for (const Direction& d : around) {
-              if ((reached & d.side) != 0 && inside(i + d.dx, j + d.dy, k + d.dz)) exposed.set(i + d.dx, j + d.dy, k + d.dz);
+              if ((reached & d.side) != 0 && inside(i + d.dx, j + d.dy, k + d.dz))
+                exposed.set(i + d.dx, j + d.dy, k + d.dz);
             }
           }
         }
@@ -99,7 +103,8 @@ class SeedFlood {
     BitGrid result(frame_);
     for (int j = 0; j < frame_.ny; ++j) {
       for (int i = 0; i < frame_.nx; ++i) {
-        for (int w = 0; w < free_.words(); ++w) result.column(i, j)[w] = ~free_.column(i, j)[w] & run_mask(w, 0, frame_.nz - 1);
+        for (int w = 0; w < free_.words(); ++w)
+          result.column(i, j)[w] = ~free_.column(i, j)[w] & run_mask(w, 0, frame_.nz - 1);
       }
     }
     erode(result, 1, 1, 1);
@@ -116,7 +121,9 @@ class SeedFlood {
     int i, j, k;
   };
 
-  bool inside(int i, int j, int k) const { return i >= 0 && j >= 0 && k >= 0 && i < frame_.nx && j < frame_.ny && k < frame_.nz; }
+  bool inside(int i, int j, int k) const {
+    return i >= 0 && j >= 0 && k >= 0 && i < frame_.nx && j < frame_.ny && k < frame_.nz;
+  }
 
   /// Occupied voxels of a word that have a free neighbour let its whole side in.
   void start_word(int i, int j, int w) {
@@ -128,7 +135,8 @@ class SeedFlood {
       uint64_t beside = next[w];
       if (d.dz > 0) beside = next[w] >> 1 | (w + 1 < free_.words() ? next[w + 1] << 63 : 0);
       if (d.dz < 0) beside = next[w] << 1 | (w > 0 ? next[w - 1] >> 63 : 0);
-      for (uint64_t bits = occupied & beside; bits != 0; bits &= bits - 1) enter(i, j, 64 * w + std::countr_zero(bits), d.side);
+      for (uint64_t bits = occupied & beside; bits != 0; bits &= bits - 1)
+        enter(i, j, 64 * w + std::countr_zero(bits), d.side);
     }
   }
 
@@ -142,7 +150,8 @@ class SeedFlood {
   }
 
   void spread(const Voxel& v) {
-    const bool whole = !occupied_.get(v.i, v.j, v.k);  // a voxel without a surface that was found free on the way
+    const bool whole =
+        !occupied_.get(v.i, v.j, v.k);  // a voxel without a surface that was found free on the way
     const Brick reached = whole ? ~Brick{0} : reached_.at(v.i, v.j, v.k);
     for (const Direction& d : faces_) {
       const int i = v.i + d.dx, j = v.j + d.dy, k = v.k + d.dz;

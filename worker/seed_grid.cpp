@@ -22,7 +22,8 @@ void clip_to_row(const ClippedTriangle& triangle, const GridFrame& frame, int j,
     const ClippedTriangle cell = clip_slab(row, 0, frame.x(i) - margin, frame.x(i + 1) + margin);
     if (cell.count == 0) continue;
     double z0 = cell.corner[0].z, z1 = z0;
-    for (int n = 1; n < cell.count; ++n) z0 = std::min(z0, cell.corner[n].z), z1 = std::max(z1, cell.corner[n].z);
+    for (int n = 1; n < cell.count; ++n)
+      z0 = std::min(z0, cell.corner[n].z), z1 = std::max(z1, cell.corner[n].z);
     visit(i, z0, z1);
   }
 }
@@ -48,7 +49,8 @@ void visit_touched_columns(const Scene& scene, const GridFrame& frame, const Col
       const glm::uvec3 v = scene.triangles[t];
       const double y0 = std::min({scene.vertices[v.x].y, scene.vertices[v.y].y, scene.vertices[v.z].y});
       const double y1 = std::max({scene.vertices[v.x].y, scene.vertices[v.y].y, scene.vertices[v.z].y});
-      for (int b = frame.column_y(y0 - margin) / band_rows; b <= frame.column_y(y1 + margin) / band_rows; ++b) {
+      for (int b = frame.column_y(y0 - margin) / band_rows; b <= frame.column_y(y1 + margin) / band_rows;
+           ++b) {
         items[b].push_back({static_cast<uint32_t>(t), object.kind == Kind::terrain});
       }
     }
@@ -57,12 +59,14 @@ void visit_touched_columns(const Scene& scene, const GridFrame& frame, const Col
     for (const Item& item : items[b]) {
       const ClippedTriangle triangle = triangle_of(scene, item.triangle);
       double y0 = std::numeric_limits<double>::infinity(), y1 = -y0;
-      for (int n = 0; n < 3; ++n) y0 = std::min(y0, triangle.corner[n].y), y1 = std::max(y1, triangle.corner[n].y);
+      for (int n = 0; n < 3; ++n)
+        y0 = std::min(y0, triangle.corner[n].y), y1 = std::max(y1, triangle.corner[n].y);
       const int first = std::max(frame.column_y(y0 - margin), b * band_rows);
       const int last = std::min(frame.column_y(y1 + margin), (b + 1) * band_rows - 1);
       for (int j = first; j <= last; ++j) {
         clip_to_row(triangle, frame, j, margin, [&](int i, double z0, double z1) {
-          visit(i, j, frame.layer(z0 - margin), frame.layer(z1 + margin), {item.terrain, static_cast<float>(z1)});
+          visit(i, j, frame.layer(z0 - margin), frame.layer(z1 + margin),
+                {item.terrain, static_cast<float>(z1)});
         });
       }
     }
@@ -77,8 +81,8 @@ SeedGrid seed_test(const Scene& scene, const GridFrame& frame) {
     float& ground = grid.ground[static_cast<size_t>(j) * frame.nx + i];
     ground = std::fmax(ground, touched.highest_m);
   });
-  const bool any_terrain =
-      std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& o) { return o.kind == Kind::terrain; });
+  const bool any_terrain = std::any_of(scene.objects.begin(), scene.objects.end(),
+                                       [](const Object& o) { return o.kind == Kind::terrain; });
   if (!any_terrain) std::fill(grid.ground.begin(), grid.ground.end(), scene.bounds().lower.z);
   return grid;
 }

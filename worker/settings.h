@@ -17,9 +17,9 @@ struct Settings {
     double terrain_tile_m = 64.0;    ///< terrain is cut into square objects of this edge
   } scene;
   struct {
-    std::string mode = "walk";  ///< "walk": cells at eye height above ground or terrain
+    std::string mode = "walk";   ///< "walk": cells at eye height above ground or terrain
     double seed_size_m = 0.125;  ///< a gap of two seeds stays open, a narrower one may close; a voxel is four
-    double eye_height_m = 1.7;  ///< above ground, +- 0.25 m
+    double eye_height_m = 1.7;   ///< above ground, +- 0.25 m
   } navigation;
   struct {
     double size_m = 10.0;   ///< horizontal edge of a view-cell

@@ -20,8 +20,10 @@ std::vector<RingErosion> ring_erosions(const ShrinkRequest& request, double voxe
     ring.depth_limit_m = ring.h_m * request.resolution / (1 + sigma);
     rings.push_back(ring);
     if (ring.depth_limit_m >= request.reach_m) return rings;
-    // At least one voxel more: where h falls short of the reach by a rounding error, this would else never end.
-    n = std::max(n + 1, voxels(widest + std::min(2 * ring.h_m, request.reach_m * (1 + sigma) / request.resolution)));
+    // At least one voxel more: where h falls short of the reach by a rounding error, this would else never
+    // end.
+    n = std::max(n + 1,
+                 voxels(widest + std::min(2 * ring.h_m, request.reach_m * (1 + sigma) / request.resolution)));
   }
 }
 
@@ -32,7 +34,8 @@ std::vector<Ring> SealedShrinker::shrink(const BitGrid& sealed, const ShrinkRequ
   for (const RingErosion& ring : ring_erosions(request, sealed.frame().size_m)) {
     erode(eroded, ring.x - done.x, ring.y - done.y, ring.z - done.z);
     done = ring;
-    rings.push_back({ring.h_m, static_cast<float>(ring.depth_limit_m), cover_with_boxes(eroded, request.lowest_eye_m)});
+    rings.push_back(
+        {ring.h_m, static_cast<float>(ring.depth_limit_m), cover_with_boxes(eroded, request.lowest_eye_m)});
   }
   return rings;
 }

@@ -12,7 +12,8 @@
 namespace veduta {
 namespace {
 
-/// The planes between the slices of one axis of an object. Triangles are assigned and clipped by the same planes.
+/// The planes between the slices of one axis of an object. Triangles are assigned and clipped by the same
+/// planes.
 struct Planes {
   double lower, step;
   int count;
@@ -22,11 +23,13 @@ struct Planes {
   }
 };
 
-/// The part of the polygon in slices [first, last] of an axis. The slab is a little thicker than the slices, so that rounding
-/// makes test boxes larger, never smaller: an occludee that is too large errs towards visible.
+/// The part of the polygon in slices [first, last] of an axis. The slab is a little thicker than the slices,
+/// so that rounding makes test boxes larger, never smaller: an occludee that is too large errs towards
+/// visible.
 ClippedTriangle clip_slices(const ClippedTriangle& in, int axis, const Planes& planes, int first, int last) {
   const double margin = 1e-4 * planes.step + 1e-6;
-  return clip_slab(in, axis, planes.lower + first * planes.step - margin, planes.lower + (last + 1) * planes.step + margin);
+  return clip_slab(in, axis, planes.lower + first * planes.step - margin,
+                   planes.lower + (last + 1) * planes.step + margin);
 }
 
 void extend(Box& box, const ClippedTriangle& polygon) {
@@ -42,12 +45,13 @@ void extend(Box& box, const ClippedTriangle& polygon) {
 
 std::array<Planes, 3> planes_of(const Scene& scene, const Object& object, const SliceCounts& n) {
   const Box b = scene.bounds(object);
-  return {Planes(b.lower.x, b.upper.x, n.x), Planes(b.lower.y, b.upper.y, n.y), Planes(b.lower.z, b.upper.z, n.z)};
+  return {Planes(b.lower.x, b.upper.x, n.x), Planes(b.lower.y, b.upper.y, n.y),
+          Planes(b.lower.z, b.upper.z, n.z)};
 }
 
 /// Fills the boxes of one object: for each vertical slice the box of each level, then cumulated upwards.
-void fill_boxes(const Scene& scene, uint32_t o, const SliceCounts& n, const std::vector<TriangleSlices>& touched,
-                const VerticalSlice* slice, Box* all) {
+void fill_boxes(const Scene& scene, uint32_t o, const SliceCounts& n,
+                const std::vector<TriangleSlices>& touched, const VerticalSlice* slice, Box* all) {
   const Object& object = scene.objects[o];
   const std::array<Planes, 3> planes = planes_of(scene, object, n);
   for (uint64_t t = object.triangle_begin; t < object.triangle_end; ++t) {
@@ -65,7 +69,8 @@ void fill_boxes(const Scene& scene, uint32_t o, const SliceCounts& n, const std:
     }
   }
   for (int i = 0; i < n.x + n.y; ++i) {
-    for (uint32_t h = 1; h < slice[i].heights; ++h) all[slice[i].first_box + h].extend(all[slice[i].first_box + h - 1]);
+    for (uint32_t h = 1; h < slice[i].heights; ++h)
+      all[slice[i].first_box + h].extend(all[slice[i].first_box + h - 1]);
   }
 }
 
@@ -78,7 +83,8 @@ std::vector<SliceCounts> choose_slices(const Scene& scene, int most, double slic
   };
   for (const Object& object : scene.objects) {
     const Box b = scene.bounds(object);
-    slices.push_back({count(b.upper.x - b.lower.x), count(b.upper.y - b.lower.y), count(b.upper.z - b.lower.z)});
+    slices.push_back(
+        {count(b.upper.x - b.lower.x), count(b.upper.y - b.lower.y), count(b.upper.z - b.lower.z)});
   }
   return slices;
 }
@@ -92,7 +98,8 @@ std::vector<TriangleSlices> slice_triangles(const Scene& scene, const std::vecto
       const ClippedTriangle triangle = triangle_of(scene, t);
       std::array<uint8_t, 6> range{};
       for (int axis = 0; axis < 3; ++axis) {
-        const auto [low, high] = std::minmax({triangle.corner[0][axis], triangle.corner[1][axis], triangle.corner[2][axis]});
+        const auto [low, high] =
+            std::minmax({triangle.corner[0][axis], triangle.corner[1][axis], triangle.corner[2][axis]});
         range[2 * axis] = static_cast<uint8_t>(planes[axis].slice(low) + 1);
         range[2 * axis + 1] = static_cast<uint8_t>(planes[axis].slice(high) + 1);
       }
@@ -117,7 +124,8 @@ SliceBoxes slice_boxes(const Scene& scene, const std::vector<SliceCounts>& slice
   if (boxes > UINT32_MAX) throw std::length_error("more than 2^32 slice boxes");
   result.boxes.resize(boxes);
   tbb::parallel_for(uint32_t{0}, static_cast<uint32_t>(scene.objects.size()), [&](uint32_t o) {
-    fill_boxes(scene, o, slices[o], triangle_slices, &result.slices[result.object_slice_begin[o]], result.boxes.data());
+    fill_boxes(scene, o, slices[o], triangle_slices, &result.slices[result.object_slice_begin[o]],
+               result.boxes.data());
   });
   return result;
 }

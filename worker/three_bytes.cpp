@@ -9,7 +9,8 @@ TriangleCounts::TriangleCounts(const Scene& scene, const std::vector<SliceCounts
     : slices_(slices) {
   for (size_t o = 0; o < scene.objects.size(); ++o) {
     for (int axis = 0; axis < 2; ++axis) {
-      // Only rectangles that touch one end of the axis are ever asked for: prefixes by last slice, suffixes by first.
+      // Only rectangles that touch one end of the axis are ever asked for: prefixes by last slice, suffixes
+      // by first.
       const int n = axis == 0 ? slices[o].x : slices[o].y, nz = slices[o].z;
       begin_.push_back(counts_.size());
       counts_.resize(counts_.size() + 2 * static_cast<size_t>(n) * nz, 0);
@@ -17,12 +18,14 @@ TriangleCounts::TriangleCounts(const Scene& scene, const std::vector<SliceCounts
       uint32_t* suffix = prefix + static_cast<size_t>(n) * nz;
       for (uint64_t t = scene.objects[o].triangle_begin; t < scene.objects[o].triangle_end; ++t) {
         const TriangleSlices& s = triangle_slices[t];
-        const int first = (axis == 0 ? s.x_first : s.y_first) - 1, last = (axis == 0 ? s.x_last : s.y_last) - 1;
+        const int first = (axis == 0 ? s.x_first : s.y_first) - 1,
+                  last = (axis == 0 ? s.x_last : s.y_last) - 1;
         ++prefix[last * nz + s.z_last - 1];
         ++suffix[first * nz + s.z_last - 1];
       }
       for (int i = 0; i < n; ++i) {
-        for (int z = 1; z < nz; ++z) prefix[i * nz + z] += prefix[i * nz + z - 1], suffix[i * nz + z] += suffix[i * nz + z - 1];
+        for (int z = 1; z < nz; ++z)
+          prefix[i * nz + z] += prefix[i * nz + z - 1], suffix[i * nz + z] += suffix[i * nz + z - 1];
       }
       for (int z = 0; z < nz; ++z) {
         for (int i = 1; i < n; ++i) prefix[i * nz + z] += prefix[(i - 1) * nz + z];

@@ -9,19 +9,22 @@
 
 namespace veduta {
 
-/// For each object, how many of its triangles lie wholly in a corner of its slices: what a rectangle of occluded slices saves.
-/// Counting is done once, for all cells.
+/// For each object, how many of its triangles lie wholly in a corner of its slices: what a rectangle of
+/// occluded slices saves. Counting is done once, for all cells.
 class TriangleCounts {
  public:
-  TriangleCounts(const Scene& scene, const std::vector<SliceCounts>& slices, const std::vector<TriangleSlices>& triangle_slices);
+  TriangleCounts(const Scene& scene, const std::vector<SliceCounts>& slices,
+                 const std::vector<TriangleSlices>& triangle_slices);
 
-  /// Chooses the rectangle that saves most triangles. `occluded` holds, for each x-slice and then each y-slice of the object,
-  /// how many of its lowest z-slices are hidden. Departs from Algorithm 4.3 in weighing by triangles, not by area.
-  /// \return what is visible; nothing() when all is hidden. Never hides a triangle outside the rectangle.
+  /// Chooses the rectangle that saves most triangles. `occluded` holds, for each x-slice and then each
+  /// y-slice of the object, how many of its lowest z-slices are hidden. Departs from Algorithm 4.3 in
+  /// weighing by triangles, not by area. \return what is visible; nothing() when all is hidden. Never hides a
+  /// triangle outside the rectangle.
   VisibilityIndex choose(uint32_t object, const uint32_t* occluded) const;
 
  private:
-  /// Triangles of the object in x- or y-slices [first, last] (1-based) wholly, and in z-slices up to `z` wholly.
+  /// Triangles of the object in x- or y-slices [first, last] (1-based) wholly, and in z-slices up to `z`
+  /// wholly.
   uint32_t inside(uint32_t object, int axis, int first, int last, int z) const;
 
   std::vector<SliceCounts> slices_;

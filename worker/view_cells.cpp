@@ -82,9 +82,11 @@ std::vector<Box> walk_cells(const SeedGrid& seeds, const BitGrid& free, const Wa
   for (int j = j0; j <= j1; ++j) {
     for (int i = i0; i <= i1; ++i) {
       const double x = (i + 0.5) * options.size_m, y = (j + 0.5) * options.size_m;
-      if (const auto& r = options.region; r && (x < (*r)[0] || y < (*r)[1] || x > (*r)[2] || y > (*r)[3])) continue;
-      Box box{{static_cast<float>(i * options.size_m), static_cast<float>(j * options.size_m), 0},
-              {static_cast<float>((i + 1) * options.size_m), static_cast<float>((j + 1) * options.size_m), 0}};
+      if (const auto& r = options.region; r && (x < (*r)[0] || y < (*r)[1] || x > (*r)[2] || y > (*r)[3]))
+        continue;
+      Box box{
+          {static_cast<float>(i * options.size_m), static_cast<float>(j * options.size_m), 0},
+          {static_cast<float>((i + 1) * options.size_m), static_cast<float>((j + 1) * options.size_m), 0}};
       const Band band = eye_band(seeds, free, options, box);
       if (!(band.lower < band.upper)) continue;
       const int storeys = static_cast<int>(std::ceil((band.upper - band.lower) / options.height_m - 1e-6));
@@ -93,12 +95,14 @@ std::vector<Box> walk_cells(const SeedGrid& seeds, const BitGrid& free, const Wa
         box.lower.z = static_cast<float>(bottom + k * options.height_m);
         box.upper.z = static_cast<float>(bottom + (k + 1) * options.height_m);
         if (any_free(free, box)) {
-          placed.push_back({hilbert_index(order, static_cast<uint32_t>(i - i0), static_cast<uint32_t>(j - j0)), box});
+          placed.push_back(
+              {hilbert_index(order, static_cast<uint32_t>(i - i0), static_cast<uint32_t>(j - j0)), box});
         }
       }
     }
   }
-  std::stable_sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a.hilbert < b.hilbert; });
+  std::stable_sort(placed.begin(), placed.end(),
+                   [](const Placed& a, const Placed& b) { return a.hilbert < b.hilbert; });
   std::vector<Box> cells;
   for (const Placed& p : placed) cells.push_back(p.box);
   return cells;

@@ -30,10 +30,18 @@ class Worker {
     const json request = json::parse(frame.text(), nullptr, false);
     if (request.is_discarded()) throw Error(ExitStatus::defect, "worker: a request is not JSON");
     switch (frame.verb) {
-      case Verb::prepare: prepare_city(request.at("directory").get<std::string>()); break;
-      case Verb::open: open_city(request.at("directory").get<std::string>()); break;
-      case Verb::bake: bake(request.at("cells").get<std::vector<uint32_t>>()); break;
-      default: throw Error(ExitStatus::defect, "worker: unknown verb " + std::to_string(static_cast<uint32_t>(frame.verb)));
+      case Verb::prepare:
+        prepare_city(request.at("directory").get<std::string>());
+        break;
+      case Verb::open:
+        open_city(request.at("directory").get<std::string>());
+        break;
+      case Verb::bake:
+        bake(request.at("cells").get<std::vector<uint32_t>>());
+        break;
+      default:
+        throw Error(ExitStatus::defect,
+                    "worker: unknown verb " + std::to_string(static_cast<uint32_t>(frame.verb)));
     }
     return true;
   }
@@ -46,24 +54,29 @@ class Worker {
   void say(Verb verb, const json& payload) { write_frame(output_, encode_frame(verb, payload.dump())); }
 
   void prepare_city(const std::string& directory) {
-    const Prepared prepared = prepare(load_settings(RunPaths{directory}.settings()), [&](const std::string& stage, int done, int total) {
-      say(Verb::progress, {{"stage", stage}, {"done", done}, {"total", total}});
-    });
+    const Prepared prepared = prepare(
+        load_settings(RunPaths{directory}.settings()), [&](const std::string& stage, int done, int total) {
+          say(Verb::progress, {{"stage", stage}, {"done", done}, {"total", total}});
+        });
     write_prepared(directory, prepared);
     const City& city = prepared.city;
-    say(Verb::prepared, {{"cells", city.cells.size()}, {"objects", city.scene.objects.size()},
-                         {"triangles", city.scene.triangles.size()}, {"notes", prepared.notes}});
+    say(Verb::prepared, {{"cells", city.cells.size()},
+                         {"objects", city.scene.objects.size()},
+                         {"triangles", city.scene.triangles.size()},
+                         {"notes", prepared.notes}});
   }
 
   void open_city(const std::string& directory) {
-    baker_.emplace(read_city(RunPaths{directory}.city()), read_occluders(directory), load_settings(RunPaths{directory}.settings()), gpu_);
+    baker_.emplace(read_city(RunPaths{directory}.city()), read_occluders(directory),
+                   load_settings(RunPaths{directory}.settings()), gpu_);
     say(Verb::opened, {{"renderer", baker_->renderer()}, {"cells", baker_->cell_count()}});
   }
 
   void bake(const std::vector<uint32_t>& cells) {
     if (!baker_) throw Error(ExitStatus::defect, "worker: asked to bake before a city was opened");
     for (const uint32_t cell : cells) {
-      if (cell >= baker_->cell_count()) throw Error(ExitStatus::defect, "worker: there is no cell " + std::to_string(cell));
+      if (cell >= baker_->cell_count())
+        throw Error(ExitStatus::defect, "worker: there is no cell " + std::to_string(cell));
       const std::vector<std::byte> record = encode(baker_->bake(cell));
       write_frame(output_, encode_frame(Verb::cell_baked, record.data(), record.size()));
     }
@@ -89,7 +102,8 @@ int run_worker(int input, int output, const std::string& gpu) {
     } catch (const Error&) {
       throw;
     } catch (const std::bad_alloc&) {
-      throw Error(ExitStatus::input_output, "worker: out of memory; use fewer workers a host or a larger navigation.seed_size");
+      throw Error(ExitStatus::input_output,
+                  "worker: out of memory; use fewer workers a host or a larger navigation.seed_size");
     } catch (const std::exception& error) {
       throw Error(ExitStatus::defect, std::string("worker: ") + error.what());
     }

@@ -10,11 +10,13 @@
 #include "worker/worker_loop.h"
 
 int main(int argc, char** argv) {
-  CLI::App app{"Veduta's worker: bakes cells that arrive as frames on standard input. Started by `veduta bake`."};
+  CLI::App app{
+      "Veduta's worker: bakes cells that arrive as frames on standard input. Started by `veduta bake`."};
   std::string gpu = "auto";
   bool probe = false;
   app.add_option("--gpu", gpu, "EGL device: auto, software or a number")->capture_default_str();
-  app.add_flag("--probe", probe, "Print one line per EGL device and the renderer that --gpu chooses, then leave");
+  app.add_flag("--probe", probe,
+               "Print one line per EGL device and the renderer that --gpu chooses, then leave");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -23,7 +25,8 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // a shepherd that is gone shows as a write error
   try {
     if (!probe) {
-      // Frames go to a private copy of standard output: whatever a driver prints there must not get between them.
+      // Frames go to a private copy of standard output: whatever a driver prints there must not get between
+      // them.
       const int frames = dup(STDOUT_FILENO);
       dup2(STDERR_FILENO, STDOUT_FILENO);
       return veduta::run_worker(STDIN_FILENO, frames, gpu);

@@ -6,7 +6,8 @@
 
 namespace veduta::reference {
 
-bool triangle_touches_box(const glm::dvec3 triangle[3], const glm::dvec3& lower, const glm::dvec3& upper, double margin) {
+bool triangle_touches_box(const glm::dvec3 triangle[3], const glm::dvec3& lower, const glm::dvec3& upper,
+                          double margin) {
   const glm::dvec3 center = 0.5 * (lower + upper), half = 0.5 * (upper - lower) + margin;
   const glm::dvec3 v[3] = {triangle[0] - center, triangle[1] - center, triangle[2] - center};
   const glm::dvec3 edge[3] = {v[1] - v[0], v[2] - v[1], v[0] - v[2]};

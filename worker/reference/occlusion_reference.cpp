@@ -21,7 +21,8 @@ FaceBox face_box(int face, const glm::dvec3& lower, const glm::dvec3& upper) {
   return {glm::min(a, b), glm::max(a, b)};
 }
 
-/// Planar depth at which the ray (x, y, 1) * depth enters the box, infinity if it does not or if it starts inside of it.
+/// Planar depth at which the ray (x, y, 1) * depth enters the box, infinity if it does not or if it starts
+/// inside of it.
 double entry_depth(const FaceBox& box, double x, double y) {
   double enter = -infinity, leave = infinity;
   const glm::dvec3 direction(x, y, 1);
@@ -39,7 +40,10 @@ double entry_depth(const FaceBox& box, double x, double y) {
 }  // namespace
 
 Panorama::Panorama(const std::vector<Ring>& rings, int resolution, const glm::dvec3& eye, double near_m)
-    : size_(resolution), eye_(eye), near_m_(near_m), depth_(static_cast<size_t>(face_count) * resolution * resolution, infinity) {
+    : size_(resolution),
+      eye_(eye),
+      near_m_(near_m),
+      depth_(static_cast<size_t>(face_count) * resolution * resolution, infinity) {
   for (int face = 0; face < face_count; ++face) {
     for (const Ring& ring : rings) {
       for (const Box& world : ring.boxes) {
@@ -59,7 +63,8 @@ Panorama::Panorama(const std::vector<Ring>& rings, int resolution, const glm::dv
 
 bool Panorama::hidden(const Box& box, const glm::dvec3& half_extent_m, const Strictness& strictness) const {
   const glm::dvec3 center = 0.5 * (glm::dvec3(box.lower) + glm::dvec3(box.upper)) - eye_;
-  const glm::dvec3 half = glm::max(0.5 * (glm::dvec3(box.upper) - glm::dvec3(box.lower)) - half_extent_m, glm::dvec3(0));
+  const glm::dvec3 half =
+      glm::max(0.5 * (glm::dvec3(box.upper) - glm::dvec3(box.lower)) - half_extent_m, glm::dvec3(0));
   for (int face = 0; face < 6; ++face) {
     const FaceBox b = face_box(face, center - half, center + half);
     const double nearest = std::max({b.lower.x, -b.upper.x, b.lower.y, -b.upper.y, b.lower.z, 0.0});
@@ -68,8 +73,10 @@ bool Panorama::hidden(const Box& box, const glm::dvec3& half_extent_m, const Str
     const auto pixel = [&](double ratio) {
       return static_cast<int>(std::floor((std::clamp(ratio, -1.0, 1.0) + 1) * 0.5 * size_));
     };
-    const int x0 = pixel(b.lower.x / (b.lower.x < 0 ? nearest : b.upper.z)), x1 = pixel(b.upper.x / (b.upper.x > 0 ? nearest : b.upper.z));
-    const int y0 = pixel(b.lower.y / (b.lower.y < 0 ? nearest : b.upper.z)), y1 = pixel(b.upper.y / (b.upper.y > 0 ? nearest : b.upper.z));
+    const int x0 = pixel(b.lower.x / (b.lower.x < 0 ? nearest : b.upper.z)),
+              x1 = pixel(b.upper.x / (b.upper.x > 0 ? nearest : b.upper.z));
+    const int y0 = pixel(b.lower.y / (b.lower.y < 0 ? nearest : b.upper.z)),
+              y1 = pixel(b.upper.y / (b.upper.y > 0 ? nearest : b.upper.z));
     const int out = strictness.outward_pixels;
     for (int y = std::max(y0 - out, 0); y <= std::min(y1 + out, size_ - 1); ++y) {
       for (int x = std::max(x0 - out, 0); x <= std::min(x1 + out, size_ - 1); ++x) {

@@ -1,4 +1,5 @@
-// The panorama as a slow CPU kernel: one ray a pixel against every box, in double; every pixel of an occludee looked at.
+// The panorama as a slow CPU kernel: one ray a pixel against every box, in double; every pixel of an occludee
+// looked at.
 #pragma once
 
 #include <vector>
@@ -17,8 +18,11 @@ class Panorama {
  public:
   Panorama(const std::vector<Ring>& rings, int resolution, const glm::dvec3& eye, double near_m);
 
-  /// Planar depth at which the ray through the pixel's centre meets an occluder, m; infinity for none. Faces as cube_face.h.
-  double depth_m(int face, int x, int y) const { return depth_[(static_cast<size_t>(face) * size_ + y) * size_ + x]; }
+  /// Planar depth at which the ray through the pixel's centre meets an occluder, m; infinity for none. Faces
+  /// as cube_face.h.
+  double depth_m(int face, int x, int y) const {
+    return depth_[(static_cast<size_t>(face) * size_ + y) * size_ + x];
+  }
 
   /// Is a box (m) hidden from every point eye + [-e, e]? T2 applied.
   bool hidden(const Box& box, const glm::dvec3& half_extent_m, const Strictness& strictness) const;
