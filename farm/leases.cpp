@@ -41,12 +41,11 @@ std::optional<LeaseBook::Range> LeaseBook::take_pending() {
   return taken.begin < taken.end ? taken : take_pending();
 }
 
-std::optional<LeaseBook::Range> LeaseBook::steal(WorkerId thief, double now_s) const {
+std::optional<LeaseBook::Range> LeaseBook::steal(double now_s) const {
   std::optional<Range> best;
   uint32_t most = 0;
   double oldest_s = now_s;
   for (const auto& [id, lease] : granted_) {
-    if (lease.worker == thief) continue;
     // Workers answer in order: what nobody else holds of the unfinished cells is one run, before what was
     // stolen already.
     const auto open = [&](uint32_t cell) { return !done_[cell] && holders_[cell] == 1; };
@@ -66,13 +65,23 @@ std::optional<LeaseBook::Range> LeaseBook::steal(WorkerId thief, double now_s) c
   return best;
 }
 
+/// Who asks for a lease holds none: one still in its name never reached it, because the child that was idle
+/// died before.
+void LeaseBook::take_back_from(WorkerId worker) {
+  for (auto each = granted_.begin(); each != granted_.end();) {
+    const auto [id, lease] = *each++;
+    if (lease.worker == worker) lease_lost(id, false);
+  }
+}
+
 std::optional<Lease> LeaseBook::grant(WorkerId worker, double now_s) {
+  take_back_from(worker);
   auto range = take_pending();
-  if (!range) range = steal(worker, now_s);
+  if (!range) range = steal(now_s);
   if (!range) return std::nullopt;
   for (uint32_t cell = range->begin; cell < range->end; ++cell) ++holders_[cell];
   const uint64_t id = next_id_++;
-  granted_[id] = {worker, *range, now_s, now_s, false};
+  granted_[id] = {worker, *range, now_s, false};
   return Lease{id, range->begin, range->end - range->begin};
 }
 

@@ -35,7 +35,9 @@ class LeaseBook {
   /// \param done  [C] true for cells that need no baking
   LeaseBook(std::vector<bool> done, uint32_t workers);
 
-  /// The next lease for an idle worker, nullopt when there is nothing useful for it to do now.
+  /// The next lease for an idle worker, nullopt when there is nothing useful for it to do now. A lease that
+  /// it still holds has got lost on its way and goes back.
+  ///
   /// \param now_s  any steadily growing clock
   std::optional<Lease> grant(WorkerId worker, double now_s);
 
@@ -54,7 +56,6 @@ class LeaseBook {
   bool complete() const { return done_count_ == done_.size(); }
   uint32_t done_count() const { return done_count_; }
   uint32_t cell_count() const { return static_cast<uint32_t>(done_.size()); }
-  size_t outstanding() const { return granted_.size(); }
 
  private:
   struct Range {
@@ -64,11 +65,12 @@ class LeaseBook {
   struct Granted {
     WorkerId worker;
     Range range;
-    double granted_s = 0, last_sign_s = 0;
+    double last_sign_s = 0;
     bool progressed = false;
   };
   std::optional<Range> take_pending();
-  std::optional<Range> steal(WorkerId thief, double now_s) const;
+  std::optional<Range> steal(double now_s) const;
+  void take_back_from(WorkerId worker);
   void give_back(uint32_t begin, uint32_t end, int kills);
 
   std::vector<bool> done_;
