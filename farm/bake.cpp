@@ -66,7 +66,7 @@ class GuardedShepherd {
   Shepherd shepherd_;
 };
 
-/// With MPI, messages must be polled for; alone, everything wakes poll().
+/// With MPI, messages must be polled for; alone, only children have something to say.
 int wait_ms(const Transport& transport) {
   return transport.size() > 1 ? 1 : 20;
 }
@@ -115,15 +115,19 @@ std::optional<Error> coordinate(Transport& transport, Coordinator& coordinator, 
       coordinator.finish(false);
     }
   };
-  guard([&] { coordinator.start(); });
-  while (!coordinator.finished()) {
+  const auto deliver = [&] {
     while (const auto received = transport.receive()) {
       if (for_shepherd(received->message))
         shepherd.handle(received->message);
       else
         guard([&] { coordinator.handle(received->from, received->message); });
     }
+  };
+  guard([&] { coordinator.start(); });
+  while (!coordinator.finished()) {
+    deliver();
     guard([&] { coordinator.tick(stop_requested()); });
+    deliver();  // leases of our own children do not wait for the next sign of one
     if (stop_at_once_requested()) _exit(static_cast<int>(ExitStatus::stopped_early));
     shepherd.step(wait_ms(transport));
   }
@@ -161,9 +165,11 @@ int bake_as_first(const BakeOptions& options, Transport& transport) {
   const auto began = std::chrono::steady_clock::now();
   const Fingerprint fingerprint = make_fingerprint(settings);
   worker_program();  // a missing worker is told before anything is written
+  const bool was_run = is_run_directory(run);
   make_run_directory(run);
   const RunLock lock(run.lock());
-  if (options.fresh) remove_run(run), make_run_directory(run);
+  if (options.fresh && was_run) remove_run(run), make_run_directory(run);
+  remove_unfinished_files(run);
   claim(run, settings, fingerprint);
 
   RunLog log(run.log(), options.verbosity);

@@ -53,15 +53,17 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   // effect.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(127);
-  // Ctrl-C and mpirun's signals go to the whole group: the shepherd decides what its children do.
+  // Ctrl-C and mpirun's signals go to the whole group, Slurm's to every process of the job: the shepherd
+  // decides what its children do.
   setpgid(0, 0);
+  for (const int signal_number : {SIGINT, SIGTERM, SIGUSR1}) signal(signal_number, SIG_IGN);
+  for (const int signal_number : {SIGPIPE, SIGXFSZ}) signal(signal_number, SIG_DFL);
   dup2(in, STDIN_FILENO);
   dup2(out, STDOUT_FILENO);
   if (log >= 0) dup2(log, STDERR_FILENO);
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  for (const int signal_number : {SIGINT, SIGTERM, SIGUSR1, SIGPIPE}) signal(signal_number, SIG_DFL);
   execve(arguments[0], arguments, environment);
   _exit(127);
 }

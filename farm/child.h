@@ -30,11 +30,10 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  int output() const { return output_; }  ///< to poll for reading; -1 after the stream ended
-  pid_t pid() const { return pid_; }
+  int output() const { return output_; }  ///< to poll for reading
   /// A child that is gone already does not make this fail: its death is seen by read().
   void send(Verb verb, const std::string& json);
-  /// Takes what is there (after poll said so). \return false when the stream has ended or is damaged.
+  /// Takes what is there (after poll said so). \return false when the stream has ended.
   bool read();
   /// \throw Error(defect) when the stream is damaged.
   std::optional<Frame> next() { return frames_.next(); }

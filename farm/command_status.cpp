@@ -18,6 +18,14 @@ struct Options {
   bool json = false, exit_code = false;
 };
 
+/// The report is written last: after the file, unless --no-merge was given.
+bool has_ended(const RunPaths& run) {
+  const auto report = nlohmann::json::parse(read_text_file(run.report()).value_or(""), nullptr, false);
+  std::error_code ignored;
+  return report.is_object() && (report.value("merge", nlohmann::json()).is_null() ||
+                                std::filesystem::exists(run.result(), ignored));
+}
+
 /// From the journal alone: works during a bake, after it, and after one that was killed.
 int run_status(const Options& options) {
   const RunPaths& run = options.run;
@@ -31,9 +39,7 @@ int run_status(const Options& options) {
       city ? read_journal(run, fingerprint, static_cast<uint32_t>(city->cells)) : Journal{};
   const uint64_t total = city ? city->cells : 0;
   const std::string holder = lock_holder(run.lock());
-  // The report is removed when a bake begins and written when it has ended: merged, unless --no-merge was
-  // given.
-  const bool complete = city && journal.done == total && std::filesystem::exists(run.report());
+  const bool complete = city && journal.done == total && has_ended(run);
   const char* const state = complete ? "complete" : !holder.empty() ? "running" : "stopped";
   if (options.json)
     std::cout << nlohmann::json{{"state", state},

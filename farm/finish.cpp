@@ -24,8 +24,8 @@ double seconds_since(std::chrono::steady_clock::time_point then) {
 /// Our own `merge` as a program of its own: it can be stopped, and it does not carry MPI along.
 json merge_in_child(const BakeEnd& end) {
   const auto log = end.run.directory / "workers" / fmt::format("{:04}-merge.log", end.tally.attempt);
-  const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
-  Child child({{self, "merge", end.run.directory.string(), "--json"}, log, {}});
+  // By this name it is the same program also when another version was installed meanwhile.
+  Child child({{"/proc/self/exe", "merge", end.run.directory.string(), "--json"}, log, {}});
   pollfd polled{child.output(), POLLIN, 0};
   while (poll(&polled, 1, 100) <= 0)
     if (stop_requested())
@@ -40,6 +40,8 @@ json merge_in_child(const BakeEnd& end) {
                                                 end.run.directory.string(), ending, log.string()));
   std::string message = last_line(log);
   if (message.rfind("veduta: ", 0) == 0) message.erase(0, 8);
+  if (message.empty())
+    message = fmt::format("{}: the merge ended with {}", end.run.directory.string(), ending);
   throw Error(static_cast<ExitStatus>(child.exit_status()), message);
 }
 

@@ -6,7 +6,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
+#include <thread>
 
 #include "scene/error.h"
 
@@ -21,6 +23,15 @@ std::string read_holder(int descriptor) {
   return holder.empty() ? "an unnamed process" : holder;
 }
 
+/// `veduta status` asks by taking the lock for a moment: only a lock that stays taken is a bake.
+bool lock_exclusively(int descriptor) {
+  for (int tries = 0; flock(descriptor, LOCK_EX | LOCK_NB) != 0; ++tries) {
+    if (errno != EWOULDBLOCK || tries == 10) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return true;
+}
+
 }  // namespace
 
 RunLock::RunLock(const std::filesystem::path& file) {
@@ -28,7 +39,7 @@ RunLock::RunLock(const std::filesystem::path& file) {
   if (descriptor_ < 0)
     throw Error(ExitStatus::input_output, fmt::format("{}: cannot be made: {}; choose another --out",
                                                       file.string(), std::strerror(errno)));
-  if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+  if (!lock_exclusively(descriptor_)) {
     const bool held = errno == EWOULDBLOCK;
     const std::string why = held ? read_holder(descriptor_) : std::strerror(errno);
     close(descriptor_);

@@ -20,7 +20,7 @@ class RunLock {
   int descriptor_ = -1;
 };
 
-/// "host 1234", when a process holds the lock now; empty when none does.
+/// "host tulip, process 1234", when a process holds the lock now; empty when none does.
 std::string lock_holder(const std::filesystem::path& file);
 
 }  // namespace veduta

@@ -35,7 +35,6 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
   void show(const std::string& line, double share);
-  void plain(const std::string& line);
 
   bool quiet_, terminal_;
   Clock::time_point last_shown_{}, last_plain_{};

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -95,6 +96,24 @@ void make_run_directory(const RunPaths& run) {
   for (const fs::path& directory : {run.directory, run.shards(), worker_logs(run)}) make_directory(directory);
 }
 
+bool is_run_directory(const RunPaths& run) {
+  std::error_code ignored;
+  return fs::exists(run.lock(), ignored);
+}
+
+void remove_unfinished_files(const RunPaths& run) {
+  std::error_code ignored;
+  for (const fs::path& file : {run.result(), run.settings(), run.fingerprint(), run.report()}) {
+    const std::string start = file.filename().string() + ".tmp.";
+    for (const auto& entry : fs::directory_iterator(run.directory, ignored)) {
+      const std::string name = entry.path().filename().string();
+      if (name.rfind(start, 0) != 0) continue;
+      const auto writer = static_cast<pid_t>(std::strtol(name.c_str() + start.size(), nullptr, 10));
+      if (writer > 0 && kill(writer, 0) != 0 && errno == ESRCH) fs::remove(entry.path(), ignored);
+    }
+  }
+}
+
 void remove_run(const RunPaths& run) {
   for (const fs::path& each : {run.shards(), run.prepared(), worker_logs(run), run.settings(),
                                run.fingerprint(), run.log(), run.report(), run.result()}) {
@@ -119,7 +138,8 @@ void write_file_atomically(const fs::path& file, const std::string& content) {
 }
 
 std::optional<std::string> read_text_file(const fs::path& file) {
-  if (!fs::exists(file)) return std::nullopt;
+  std::error_code code;
+  if (!fs::exists(file, code) && !code) return std::nullopt;
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   if (!in || !(text << in.rdbuf())) throw Error(ExitStatus::input_output, file.string() + ": cannot be read");
@@ -138,7 +158,8 @@ std::string last_line(const fs::path& file) {
 }
 
 std::optional<CityCounts> read_city_counts(const RunPaths& run) {
-  if (!fs::exists(run.city())) return std::nullopt;
+  std::error_code code;
+  if (!fs::exists(run.city(), code)) return std::nullopt;
   const json counts = json::parse(read_text_file(counts_file(run)).value_or(""), nullptr, false);
   if (counts.is_object() && counts.contains("cells") && counts["cells"].is_number_unsigned())
     return CityCounts{counts["cells"].get<uint64_t>(), counts.value("objects", uint64_t{0}),

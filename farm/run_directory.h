@@ -24,7 +24,12 @@ uint32_t next_attempt(const RunPaths& run);
 /// Makes the directories. \throw Error(input_output) when that is not possible or the place cannot be written
 /// to.
 void make_run_directory(const RunPaths& run);
-/// Removes everything that a bake wrote, and nothing else.
+/// A bake has been here: its lock file stays for ever.
+bool is_run_directory(const RunPaths& run);
+/// Removes what writers that were killed left beside the files of the run. Those that still run are left
+/// alone.
+void remove_unfinished_files(const RunPaths& run);
+/// Removes everything that a bake wrote, and nothing else: only for what is_run_directory().
 void remove_run(const RunPaths& run);
 
 /// Temporary name, sync, rename. \throw Error(input_output).

@@ -38,6 +38,7 @@ void install_stop_signals() {
   // A child that died is seen by the end of its stream, not by a signal of ours.
   action.sa_handler = SIG_IGN;
   sigaction(SIGPIPE, &action, nullptr);
+  sigaction(SIGXFSZ, &action, nullptr);  // a file that may not grow is a write error, with its message
 }
 
 bool stop_requested() {

@@ -1,5 +1,6 @@
 // The whole program with a worker that needs no GL: alone, under mpirun, killed in every way, continued.
 #include <gtest/gtest.h>
+#include <sys/file.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -116,6 +117,13 @@ TEST_F(Bake, WorkersThatCrashAtRandomFinishTheBake) {
   EXPECT_EQ(digest(), expected);
 }
 
+TEST_F(Bake, WorkerThatLeavesWhileItWaitsDoesNotHoldTheBakeUp) {
+  const std::string expected = reference();
+  ASSERT_EQ(run("timeout 60 " + bake("", "run", 1), {{"FAKE_LEAVE_ONCE", (directory / "left").string()}}), 0)
+      << output;
+  EXPECT_EQ(digest(), expected);
+}
+
 TEST_F(Bake, HungWorkerIsReplaced) {
   const std::string expected = reference();
   ASSERT_EQ(run(bake("--cell-timeout 0.5", "run", 1), {{"FAKE_HANG_ONCE", (directory / "hung").string()}}), 0)
@@ -202,6 +210,62 @@ TEST_F(Bake, SignalsStopItResumably) {
   EXPECT_EQ(digest(), expected);
   EXPECT_EQ(run(std::string(VEDUTA_PROGRAM) + " status --exit-code " + (directory / "run").string()), 0)
       << output;
+}
+
+TEST_F(Bake, SignalsToWorkersAreTheShepherdsBusiness) {
+  const auto process = start(bake(), slow);
+  ASSERT_TRUE(in_the_middle());
+  for (const pid_t worker : descendants(process->pid(), "fake_worker"))
+    for (const int number : {SIGTERM, SIGINT, SIGUSR1}) kill(worker, number);
+  EXPECT_EQ(process->wait(), 0) << process->output();
+  EXPECT_NE(process->output().find(", 0 retries, "), std::string::npos) << process->output();
+}
+
+TEST_F(Bake, FilesThatMayNotGrowAreAnErrorWithAMessage) {
+  EXPECT_EQ(run("sh -c 'ulimit -f 300; exec " + bake("--no-merge", "run", 1) + "'", {{"FAKE_CELLS", "2500"}}),
+            74)
+      << output;
+  EXPECT_NE(output.find("File too large"), std::string::npos) << output;
+  EXPECT_EQ(run(bake()), 0) << output;
+}
+
+TEST_F(Bake, WhatKilledWritersLeftIsRemoved) {
+  Process gone("true", {}, directory / "gone.txt");
+  const std::string dead = std::to_string(gone.pid()), alive = std::to_string(getpid());
+  gone.wait();
+  fs::create_directories(directory / "run");
+  for (const std::string& pid : {dead, alive}) std::ofstream(directory / "run" / ("city.pvs.h5.tmp." + pid));
+  ASSERT_EQ(run(bake()), 0) << output;
+  EXPECT_FALSE(fs::exists(directory / "run" / ("city.pvs.h5.tmp." + dead)));
+  EXPECT_TRUE(fs::exists(directory / "run" / ("city.pvs.h5.tmp." + alive)));
+}
+
+TEST_F(Bake, FreshRemovesOnlyWhatABakeWrote) {
+  fs::create_directories(directory / "run" / "workers");
+  std::ofstream(directory / "run" / "workers" / "wages.txt") << "somebody's";
+  ASSERT_EQ(run(bake("--fresh")), 0) << output;
+  EXPECT_TRUE(fs::exists(directory / "run" / "workers" / "wages.txt"));
+}
+
+TEST_F(Bake, StatusIsNotCompleteWithoutTheFile) {
+  const std::string status =
+      std::string(VEDUTA_PROGRAM) + " status --exit-code " + (directory / "run").string();
+  ASSERT_EQ(run(bake("--no-merge")), 0) << output;
+  EXPECT_EQ(run(status), 0) << output;
+  ASSERT_EQ(run(bake()), 0) << output;
+  EXPECT_EQ(run(status), 0) << output;
+  fs::remove(directory / "run" / "city.pvs.h5");
+  EXPECT_EQ(run(status), 75) << output;
+}
+
+TEST_F(Bake, SomebodyWhoAsksForTheLockDoesNotStopABake) {
+  fs::create_directories(directory / "run");
+  const int asking = open((directory / "run" / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  ASSERT_EQ(flock(asking, LOCK_SH), 0);
+  const auto process = start(bake());
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  close(asking);
+  EXPECT_EQ(process->wait(), 0) << process->output();
 }
 
 TEST_F(Bake, SignalledMpirunStopsResumably) {

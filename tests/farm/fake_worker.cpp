@@ -5,6 +5,7 @@
 //   FAKE_CRASH_CELLS cells ("17,40") whose bake ends in SIGKILL, each time
 //   FAKE_CRASH_RATE  probability (0..1) that a cell ends in SIGSEGV
 //   FAKE_HANG_ONCE   a file: the worker that can create it hangs at its tenth cell
+//   FAKE_LEAVE_ONCE  a file: the worker that can create it leaves after its lease
 //   FAKE_FAIL        a status: `prepare` answers `failed` with it
 //   FAKE_PREPARE_DIES  set: `prepare` ends in SIGKILL
 #include <fcntl.h>
@@ -36,6 +37,11 @@ constexpr uint32_t object_count = 40;
 std::string environment(const char* name, const char* otherwise) {
   const char* value = std::getenv(name);
   return value ? value : otherwise;
+}
+
+/// Is there a name, and no such file before?
+bool first_to_create(const std::string& file) {
+  return !file.empty() && open(file.c_str(), O_CREAT | O_EXCL, 0600) >= 0;
 }
 
 void answer(Verb verb, const json& value) {
@@ -99,6 +105,7 @@ class FakeWorker {
       } else if (frame->verb == Verb::bake) {
         for (const uint32_t cell : value.at("cells").get<std::vector<uint32_t>>()) bake_cell(cell);
         answer(Verb::lease_done, json::object());
+        if (first_to_create(environment("FAKE_LEAVE_ONCE", ""))) return 0;
       }
     }
     return 0;
@@ -129,9 +136,8 @@ class FakeWorker {
     ++baked_;
     if (crash_cells_.count(cell)) raise(SIGKILL);
     if (std::uniform_real_distribution<>()(random_) < crash_rate_) raise(SIGSEGV);
-    if (const std::string file = environment("FAKE_HANG_ONCE", ""); !file.empty() && baked_ == 10)
-      if (const int made = open(file.c_str(), O_CREAT | O_EXCL, 0600); made >= 0)
-        for (;;) pause();
+    if (baked_ == 10 && first_to_create(environment("FAKE_HANG_ONCE", "")))
+      for (;;) pause();
     std::this_thread::sleep_for(std::chrono::milliseconds(cell_ms_));
     const auto record = encode(bake(cell));
     write_frame(STDOUT_FILENO, encode_frame(Verb::cell_baked, record.data(), record.size()));
