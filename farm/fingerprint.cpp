@@ -21,7 +21,8 @@ std::string hex(XXH128_hash_t hash) {
 
 std::string hash_file(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (std::filesystem::is_directory(file) || !in)
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored) || !in)
     throw Error(ExitStatus::bad_input,
                 file.string() + ": cannot be opened; check scene.model in the configuration");
   const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(),

@@ -90,7 +90,8 @@ Settings parse_settings(const std::string& text, const std::string& name, const 
 Settings load_settings(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
-  if (std::filesystem::is_directory(file) || !in || !(text << in.rdbuf()))
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored) || !in || !(text << in.rdbuf()))
     throw Error(ExitStatus::input_output,
                 file.string() + ": cannot read the configuration; check that the file exists");
   return parse_settings(text.str(), file.string(), std::filesystem::absolute(file).parent_path());

@@ -60,7 +60,8 @@ TEST_F(FingerprintTest, EverySettingCountsAndIsNamed) {
 
 TEST_F(FingerprintTest, MissingModelIsBadInput) {
   Settings settings;
-  for (const std::filesystem::path& wrong : {directory / "no.json", directory}) {
+  for (const std::filesystem::path& wrong :
+       {directory / "no.json", directory, directory / std::string(300, 'x')}) {
     settings.scene.model = {wrong.string()};
     try {
       make_fingerprint(settings);
