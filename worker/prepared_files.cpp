@@ -1,7 +1,10 @@
 // prepared/: city.h5 (the file's own layout) and occluders.bin (rings, private to the worker).
 #define XXH_INLINE_ALL
+#include <fcntl.h>
+#include <unistd.h>
 #include <xxhash.h>
 
+#include <cerrno>
 #include <cstring>
 #include <fstream>
 
@@ -24,6 +27,17 @@ static_assert(sizeof(RingHeader) == 16 && sizeof(Box) == 24);
 
 void append(std::string& bytes, const void* data, size_t size) {
   bytes.append(static_cast<const char*>(data), size);
+}
+
+/// A file or a directory: what was renamed must be whole after a power loss too.
+void sync(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool done =
+      descriptor >= 0 && (::fsync(descriptor) == 0 || errno == EINVAL);  // some cannot be synced
+  const int failure = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!done)
+    throw Error(ExitStatus::input_output, path.string() + ": cannot be synced: " + std::strerror(failure));
 }
 
 }  // namespace
@@ -54,10 +68,13 @@ void write_prepared(const std::filesystem::path& run_directory, const Prepared& 
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.close();
   if (!out) throw Error(ExitStatus::input_output, file.string() + ": cannot be written; is the disk full?");
+  sync(file);
+  sync(temporary);
 
   fs::remove_all(run.prepared(), error);
   fs::rename(temporary, run.prepared(), error);
   if (error) throw Error(ExitStatus::input_output, run.prepared().string() + ": " + error.message());
+  sync(run_directory);
 }
 
 std::vector<Ring> read_occluders(const std::filesystem::path& run_directory) {
@@ -65,7 +82,8 @@ std::vector<Ring> read_occluders(const std::filesystem::path& run_directory) {
   std::ifstream in(file, std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(in)), {});
   const auto damaged = [&] {
-    return Error(ExitStatus::bad_input, file.string() + ": missing or damaged; bake again with --fresh");
+    return Error(ExitStatus::bad_input,
+                 file.string() + ": missing or damaged; remove the folder it is in and bake again");
   };
   XXH64_hash_t digest = 0;
   constexpr size_t least = sizeof(occluder_magic) + sizeof(uint32_t) + sizeof(digest);
