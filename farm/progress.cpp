@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace veduta {
@@ -21,7 +22,9 @@ void put(const std::string& text) {
 }  // namespace
 
 void say(const std::string& line) {
-  put((status_line_shown ? "\r\033[K" : "") + line + "\n");
+  std::string one_line = line;  // also when a name in it holds a line break
+  std::replace(one_line.begin(), one_line.end(), '\n', ' ');
+  put((status_line_shown ? "\r\033[K" : "") + one_line + "\n");
   status_line_shown = false;
 }
 

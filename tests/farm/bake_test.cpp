@@ -313,6 +313,8 @@ TEST_F(Bake, MistakesAreOneLineWithTheirStatus) {
   expect_line(2, std::string(VEDUTA_PROGRAM), "subcommand");
   config = write_config("unknown.toml", "[cells]\nsise = 3\n");
   expect_line(2, bake(), "line 4: unknown key 'cells.sise'; did you mean 'cells.size'?");
+  config = write_config("break.toml", "[\"a\\nb\"]\n");
+  expect_line(2, bake(), "line 3: unknown key 'a b'");
   config = (directory / "nowhere.toml").string();
   expect_line(74, bake(), "nowhere.toml");
   std::ofstream(directory / "missing.toml") << "[scene]\nmodel = 'missing.json'\n";
