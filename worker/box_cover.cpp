@@ -7,16 +7,20 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "worker/shrink.h"
 
 namespace veduta {
 namespace {
 
-constexpr int tile = 128;              // voxels
-constexpr int margin = 64;             // voxels around a tile into which its rectangles may grow
-constexpr int slab_voxels = 2;         // roofs are cut down to whole slabs
-constexpr double least_gain_m2 = 1.5;  // a box must cover this much of its slab that no other does
+constexpr int tile = 128;   // voxels
+constexpr int margin = 64;  // voxels around a tile into which its rectangles may grow
+// Measured on Den Haag (0.25 m voxels, parts of 5 m): thicker slabs and smaller gains than 1 m and 1.5 m2
+// list 11 % fewer objects and draw a third faster, since a box keeps the height that all of its columns
+// share.
+constexpr double slab_m = 3.0;         // boxes are looked for in slabs of this height
+constexpr double least_gain_m2 = 0.4;  // a box must cover this much of its slab that no other does
 constexpr double least_width_m = 0.5;  // and be this wide
 
 struct Rect {
@@ -33,16 +37,19 @@ struct Column {
 class TileCover {
  public:
   TileCover(const BitGrid& grid, int ti, int tj)
-      : grid_(grid), frame_(grid.frame()), i0_(ti * tile - margin), j0_(tj * tile - margin) {}
+      : grid_(grid),
+        frame_(grid.frame()),
+        i0_(ti * tile - margin),
+        j0_(tj * tile - margin),
+        slab_(std::max(1, static_cast<int>(std::lround(slab_m / frame_.size_m)))) {}
 
   std::vector<Box> run(int lowest_top) {
     collect_columns(lowest_top);
     if (!any_own_) return {};
     set_.resize(size_t{edge} * edge), distance_.resize(set_.size()),
         covered_.resize(size_t{tile} * tile * grid_.words());
-    for (int k = highest_ / slab_voxels * slab_voxels; k >= 0 && k + slab_voxels > lowest_top;
-         k -= slab_voxels)
-      cover_slab(k);
+    // To the slab below the one of the lowest top: what is higher than that need not fill the latter.
+    for (int k = highest_ / slab_ * slab_; k >= 0 && k + 2 * slab_ > lowest_top; k -= slab_) cover_slab(k);
     return std::move(boxes_);
   }
 
@@ -149,7 +156,7 @@ class TileCover {
   }
 
   void load_slab(int k) {
-    k0_ = k, k1_ = std::min(k + slab_voxels, frame_.nz) - 1;
+    k0_ = k, k1_ = std::min(k + slab_, frame_.nz) - 1;
     std::fill(set_.begin(), set_.end(), 0);
     for (const Column& c : columns_) {
       bool all = true;
@@ -203,6 +210,7 @@ class TileCover {
   const BitGrid& grid_;
   const GridFrame& frame_;
   int i0_, j0_;  // of the region's first column in the grid; may be negative
+  int slab_;     // voxels
   int highest_ = -1;
   bool any_own_ = false;
   std::vector<Column> columns_;
