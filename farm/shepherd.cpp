@@ -45,7 +45,7 @@ void Shepherd::handle(const Message& message) {
     if (slot.task != Task::idle) return;  // it died meanwhile: the coordinator hears of that
     std::vector<uint32_t> cells(grant->count);
     for (uint32_t i = 0; i < grant->count; ++i) cells[i] = grant->begin + i;
-    slot.lease = grant->lease;
+    slot.lease = grant->lease, slot.begin = grant->begin, slot.count = grant->count;
     set(slot, Task::baking);
     slot.child->send(Verb::bake, json{{"cells", cells}}.dump());
   } else if (const auto* finish = std::get_if<FinishMessage>(&message)) {

@@ -51,6 +51,7 @@ class Shepherd {
     Task task = Task::starting;
     std::string renderer, last_words;  ///< last_words: of a `failed` frame
     uint64_t lease = 0;
+    uint32_t begin = 0, count = 0;  ///< the lease's cells
     int deaths_before_open = 0;
     Clock::time_point last_sign;
   };

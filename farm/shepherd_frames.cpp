@@ -78,6 +78,10 @@ void Shepherd::on_record(uint32_t number, const Frame& frame) {
   } catch (const Error& error) {
     throw Error(ExitStatus::defect, std::string("worker stream: ") + error.what());
   }
+  // In the journal it would stop every later run.
+  if (record.cell - slot.begin >= slot.count)
+    throw Error(ExitStatus::defect, "worker stream: an answer for cell " + std::to_string(record.cell) +
+                                        ", which was not asked for");
   if (!slot.shard)
     slot.shard =
         std::make_unique<ShardWriter>(shard_file(options_.run, job_.attempt, transport_.rank(), number),

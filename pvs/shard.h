@@ -86,7 +86,4 @@ class ShardReader {
   std::unique_ptr<File> file_;
 };
 
-/// The same for a single record. \throw Error(bad_input) when it is not there any more.
-CellRecord read_record(const std::filesystem::path& file, uint64_t offset);
-
 }  // namespace veduta

@@ -211,8 +211,4 @@ CellRecord ShardReader::read(uint64_t offset) {
   return decode_cell_record(payload->data, payload->size);
 }
 
-CellRecord read_record(const std::filesystem::path& file, uint64_t offset) {
-  return ShardReader(file).read(offset);
-}
-
 }  // namespace veduta

@@ -124,6 +124,13 @@ TEST_F(Bake, WorkerThatLeavesWhileItWaitsDoesNotHoldTheBakeUp) {
   EXPECT_EQ(digest(), expected);
 }
 
+TEST_F(Bake, AnswerThatNobodyAskedForCostsTheWorkerAndNotTheJournal) {
+  const std::string expected = reference();
+  ASSERT_EQ(run(bake("", "run", 1), {{"FAKE_STRAY_ONCE", (directory / "stray").string()}}), 0) << output;
+  EXPECT_TRUE(fs::exists(directory / "stray"));
+  EXPECT_EQ(digest(), expected);
+}
+
 TEST_F(Bake, HungWorkerIsReplaced) {
   const std::string expected = reference();
   ASSERT_EQ(run(bake("--cell-timeout 0.5", "run", 1), {{"FAKE_HANG_ONCE", (directory / "hung").string()}}), 0)

@@ -6,6 +6,7 @@
 //   FAKE_CRASH_RATE  probability (0..1) that a cell ends in SIGSEGV
 //   FAKE_HANG_ONCE   a file: the worker that can create it hangs at its tenth cell
 //   FAKE_LEAVE_ONCE  a file: the worker that can create it leaves after its lease
+//   FAKE_STRAY_ONCE  a file: the worker that can create it answers for a cell that there is not
 //   FAKE_FAIL        a status: `prepare` answers `failed` with it
 //   FAKE_PREPARE_DIES  set: `prepare` ends in SIGKILL
 #include <fcntl.h>
@@ -139,7 +140,8 @@ class FakeWorker {
     if (baked_ == 10 && first_to_create(environment("FAKE_HANG_ONCE", "")))
       for (;;) pause();
     std::this_thread::sleep_for(std::chrono::milliseconds(cell_ms_));
-    const auto record = encode(bake(cell));
+    const bool stray = first_to_create(environment("FAKE_STRAY_ONCE", ""));
+    const auto record = encode(bake(stray ? cell + 1'000'000 : cell));
     write_frame(STDOUT_FILENO, encode_frame(Verb::cell_baked, record.data(), record.size()));
   }
 

@@ -71,10 +71,10 @@ TEST(Shard, GivesBackWhatWasAppended) {
     EXPECT_EQ(got.records[c].cell, c);
     EXPECT_EQ(got.records[c].bake_us, 100 + c);
     EXPECT_TRUE(got.records[c].same_answer(record(c)));
-    EXPECT_TRUE(read_record(directory / "a", got.offsets[c]).same_answer(record(c)));
+    EXPECT_TRUE(ShardReader(directory / "a").read(got.offsets[c]).same_answer(record(c)));
   }
-  EXPECT_EQ(status_of([&] { read_record(directory / "a", got.offsets[3] + 1); }), ExitStatus::bad_input);
-  EXPECT_EQ(status_of([&] { read_record(directory / "a", 1u << 30); }), ExitStatus::bad_input);
+  EXPECT_EQ(status_of([&] { ShardReader(directory / "a").read(got.offsets[3] + 1); }), ExitStatus::bad_input);
+  EXPECT_EQ(status_of([&] { ShardReader(directory / "a").read(1u << 30); }), ExitStatus::bad_input);
 }
 
 TEST(Shard, DecodesExactlyOneRecord) {
