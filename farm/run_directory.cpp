@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "pvs/pvs_file.h"
+#include "pvs/sync_path.h"
 #include "scene/error.h"
 
 namespace veduta {
@@ -58,13 +59,6 @@ int write_and_sync(const fs::path& file, const std::string& content) {
   if (failure == 0 && fsync(descriptor) != 0) failure = errno;
   if (close(descriptor) != 0 && failure == 0) failure = errno;
   return failure;
-}
-
-void sync_directory(const fs::path& directory) {
-  const int descriptor = open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  fsync(descriptor);
-  close(descriptor);
 }
 
 }  // namespace
@@ -134,7 +128,7 @@ void write_file_atomically(const fs::path& file, const std::string& content) {
     unlink(temporary.c_str());
     cannot_write(file, failure);
   }
-  sync_directory(file.parent_path());
+  sync_path(file.parent_path());
 }
 
 std::optional<std::string> read_text_file(const fs::path& file) {

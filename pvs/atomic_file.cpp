@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "pvs/city_columns.h"
+#include "pvs/sync_path.h"
 #include "scene/error.h"
 
 namespace veduta {
@@ -15,19 +16,6 @@ namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& file, const char* what) {
   throw Error(ExitStatus::input_output, fmt::format("{}: {}: {}", file.string(), what, std::strerror(errno)));
-}
-
-void sync(const std::filesystem::path& path, int flags) {
-  const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
-  if (descriptor < 0) fail(path, "cannot open to sync");
-  const bool done = ::fsync(descriptor) == 0;
-  const int error = errno;
-  ::close(descriptor);
-  // Some file systems cannot sync a directory; then there is nothing to wait for.
-  if (!done && error != EINVAL) {
-    errno = error;
-    fail(path, "cannot sync");
-  }
 }
 
 /// HDF5 itself says little about why a file cannot be made.
@@ -53,13 +41,13 @@ void write_atomically(const std::filesystem::path& file,
     probe(temporary);
     write(temporary);
     check(temporary);
-    sync(temporary, O_RDONLY);
+    sync_path(temporary);
     if (::rename(temporary.c_str(), file.c_str()) != 0) fail(file, "cannot rename into place");
   } catch (...) {
     ::unlink(temporary.c_str());
     throw;
   }
-  sync(file.has_parent_path() ? file.parent_path() : ".", O_RDONLY | O_DIRECTORY);
+  sync_path(file.has_parent_path() ? file.parent_path() : ".");
 }
 
 void check_written(const std::filesystem::path& temporary, const ColumnDigests& digests,

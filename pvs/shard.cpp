@@ -16,6 +16,7 @@
 
 #include "pvs/crc32c.h"
 #include "pvs/shard_format.h"
+#include "pvs/sync_path.h"
 #include "scene/error.h"
 
 namespace veduta {
@@ -57,15 +58,6 @@ int write_all(int descriptor, const std::vector<std::byte>& data, uint64_t offse
     done += static_cast<size_t>(wrote);
   }
   return 0;
-}
-
-/// A new name must survive a power loss too, and it lives in the directory.
-void sync_directory_of(const std::filesystem::path& file) {
-  const auto parent = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-  const int descriptor = ::open(parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);
-  ::close(descriptor);
 }
 
 }  // namespace
@@ -132,7 +124,7 @@ ShardWriter::ShardWriter(const std::filesystem::path& file, const std::string& f
                 fmt::format("{}: cannot write the header: {}; free some space and start again", file.string(),
                             std::strerror(error)));
   }
-  sync_directory_of(file);
+  sync_path(file.has_parent_path() ? file.parent_path() : ".");  // the new name
   bytes_ = header.size();
   dirty_ = true;
 }

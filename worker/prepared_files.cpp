@@ -1,15 +1,13 @@
 // prepared/: city.h5 (the file's own layout) and occluders.bin (rings, private to the worker).
 #define XXH_INLINE_ALL
-#include <fcntl.h>
-#include <unistd.h>
 #include <xxhash.h>
 
-#include <cerrno>
 #include <cstring>
 #include <fstream>
 
 #include "pvs/pvs_file.h"
 #include "pvs/run_paths.h"
+#include "pvs/sync_path.h"
 #include "scene/error.h"
 #include "worker/prepare.h"
 
@@ -27,17 +25,6 @@ static_assert(sizeof(RingHeader) == 16 && sizeof(Box) == 24);
 
 void append(std::string& bytes, const void* data, size_t size) {
   bytes.append(static_cast<const char*>(data), size);
-}
-
-/// A file or a directory: what was renamed must be whole after a power loss too.
-void sync(const std::filesystem::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool done =
-      descriptor >= 0 && (::fsync(descriptor) == 0 || errno == EINVAL);  // some cannot be synced
-  const int failure = errno;
-  if (descriptor >= 0) ::close(descriptor);
-  if (!done)
-    throw Error(ExitStatus::input_output, path.string() + ": cannot be synced: " + std::strerror(failure));
 }
 
 }  // namespace
@@ -68,13 +55,13 @@ void write_prepared(const std::filesystem::path& run_directory, const Prepared& 
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.close();
   if (!out) throw Error(ExitStatus::input_output, file.string() + ": cannot be written; is the disk full?");
-  sync(file);
-  sync(temporary);
+  sync_path(file);
+  sync_path(temporary);
 
   fs::remove_all(run.prepared(), error);
   fs::rename(temporary, run.prepared(), error);
   if (error) throw Error(ExitStatus::input_output, run.prepared().string() + ": " + error.message());
-  sync(run_directory);
+  sync_path(run_directory);
 }
 
 std::vector<Ring> read_occluders(const std::filesystem::path& run_directory) {
