@@ -7,6 +7,10 @@ find_package(CLI11 REQUIRED)                                 # [libcli11-dev]
 find_package(nlohmann_json REQUIRED)                         # [nlohmann-json3-dev]
 find_package(simdjson REQUIRED)                              # [libsimdjson-dev]
 find_package(CGAL REQUIRED)                                  # [libcgal-dev]
+find_package(GDAL CONFIG REQUIRED)                           # [libgdal-dev] DXF, GeoJSON, Shapefile, CRS
+find_package(pugixml REQUIRED)                               # [libpugixml-dev] CityGML, city rules
+find_package(TinyGLTF REQUIRED)                              # [libtinygltf-dev]
+find_package(LibArchive REQUIRED)                            # [libarchive-dev]
 find_package(TBB REQUIRED)                                   # [libtbb-dev]
 find_package(embree 3 REQUIRED)                              # [libembree-dev]
 find_package(PNG REQUIRED)                                   # [libpng-dev]

@@ -46,7 +46,7 @@ Defect check_geometry(const Scene& scene) {
     const glm::uvec3 corner = scene.triangles[t];
     if (std::max({corner.x, corner.y, corner.z}) >= scene.vertices.size())
       return fmt::format("/scene/triangles: triangle {} names a vertex that is not there", t);
-    if (scene.material[t] > Material::vegetation)
+    if (scene.material[t] > Material::door)
       return fmt::format("/scene/material: triangle {}: unknown material", t);
   }
   return {};

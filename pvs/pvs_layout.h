@@ -33,7 +33,7 @@ inline constexpr Column vertices{"/scene/vertices", Element::f32, 3,
 inline constexpr Column triangles{"/scene/triangles", Element::u32, 3, "[T,3] vertices of each triangle"};
 inline constexpr Column material{
     "/scene/material", Element::u8, 1,
-    "[T] 0 unknown, 1 wall, 2 roof, 3 ground, 4 terrain, 5 road, 6 water, 7 vegetation"};
+    "[T] 0 unknown, 1 wall, 2 roof, 3 ground, 4 terrain, 5 road, 6 water, 7 vegetation, 8 window, 9 door"};
 inline constexpr Column triangle_slice{
     "/scene/triangle_slice", Element::u8, 6,
     "[T,6] first and last slice that the triangle touches along x, y, z; 1-based"};

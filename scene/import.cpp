@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "scene/assemble.h"
-#include "scene/cityjson.h"
-#include "scene/obj.h"
+#include "scene/readers/cityjson.h"
+#include "scene/readers/obj.h"
 #include "scene/text.h"
 
 namespace veduta {

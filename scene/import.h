@@ -11,11 +11,27 @@
 
 namespace veduta {
 
+/// Which axis of a file points up.
+enum class UpAxis { from_file, y, z };
+
 struct ImportOptions {
   /// Edge of the square tiles that terrain is cut into, in m: each becomes an object of its own, so that a
   /// row can leave out the terrain that a cell cannot see. Triangles go whole to the tile of their centroid.
   /// 0: do not cut.
   double terrain_tile_m = 64.0;
+  /// from_file: what the file or its format says (glTF: y), else z. y: x stays, z becomes -y (right-handed).
+  UpAxis up = UpAxis::from_file;
+  /// Metres in a unit of the file; 0: what the file or its format says, else 1.
+  double unit_m = 0;
+  /// The scene's CRS ("EPSG:3946"). Files that state another are transformed to it; files that state none are
+  /// taken to be in it. Empty: the CRS of the first file that states one; when that is in degrees, the UTM
+  /// zone of its middle.
+  std::string crs;
+  /// Names of the attributes of footprints that hold the height in m and the number of floors; empty: the
+  /// usual names are tried (scene/footprints.h).
+  std::string height_field, floors_field;
+  /// Height of a floor in m, where a footprint states floors and no height.
+  double floor_height_m = 3.0;
 };
 
 /// What an import found and dropped. Nothing is dropped silently.

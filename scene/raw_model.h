@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/mat4x3.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -29,23 +31,32 @@ struct RawPatch {
   uint64_t polygon_end = 0;
 };
 
+/// An object. One with a placement is an instance: its polygons are in a space of their own, and objects of a
+/// model whose patches are the same polygons share one mesh in memory. A patch of an instance is not also a
+/// patch of an object without a placement.
 struct RawObject {
+  static constexpr uint32_t unplaced = std::numeric_limits<uint32_t>::max();
   std::string name;
   Kind kind = Kind::other;
   std::string place;
   std::vector<RawPatch> patches;
+  uint32_t placement = unplaced;  ///< of RawModel::placements
 };
 
-/// One file. Vertices [V] are finite, in m, in the CRS.
+/// One file, as it was found: readers neither turn, scale nor project. Vertices [V] are finite.
 struct RawModel {
   std::string file;
   std::string format;
-  std::string crs;
+  std::string crs;          ///< as stated ("EPSG:7415", WKT); empty if unknown
+  UpAxis up = UpAxis::z;    ///< y or z
+  double unit_m = 1;        ///< metres in a unit of the coordinates
+  bool has_objects = true;  ///< false: the file names none, and its one object may be taken apart
   std::vector<glm::dvec3> vertices;
   std::vector<uint32_t> ring_vertex;  ///< [R] into vertices, in range
   std::vector<uint64_t> ring_end;     ///< ring r is [ring_end[r-1], ring_end[r]) of ring_vertex
   std::vector<RawPolygon> polygons;
   std::vector<RawObject> objects;
+  std::vector<glm::dmat4x3> placements;  ///< of instances: p -> m * (p, 1) in the file's coordinates
 
   uint64_t rings_before(uint64_t polygon) const { return polygon == 0 ? 0 : polygons[polygon - 1].ring_end; }
   uint64_t corners_before(uint64_t ring) const { return ring == 0 ? 0 : ring_end[ring - 1]; }

@@ -35,7 +35,9 @@ enum class Material : uint8_t {
   terrain = 4,
   road = 5,
   water = 6,
-  vegetation = 7
+  vegetation = 7,
+  window = 8,
+  door = 9
 };
 
 /// One object: what a row of the PVS lists. Its triangles are contiguous in Scene::triangles.

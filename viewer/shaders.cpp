@@ -83,6 +83,8 @@ vec3 albedo(vec3 normal) {
                                          : mix(vec3(0.36, 0.12, 0.07), vec3(0.20, 0.11, 0.09), float(kind.y >> 7)));
   if (material == 5u) return vec3(0.13, 0.13, 0.14);
   if (material == 6u) return vec3(0.04, 0.11, 0.16);
+  if (material == 8u) return vec3(0.05, 0.07, 0.09);
+  if (material == 9u) return vec3(0.12, 0.06, 0.035);
   vec3 plain = material == 4u ? vec3(0.185, 0.19, 0.145) : material == 7u ? vec3(0.07, 0.15, 0.04) : vec3(0.26, 0.24, 0.21);
   float blur_m = length(fwidth(place_m));
   float grain = 0.22 * (noise(place_m / 9.0) - 0.5) + 0.25 * (noise(place_m / 1.7) - 0.5) * exp(-blur_m / 0.8) +

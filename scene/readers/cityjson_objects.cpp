@@ -1,4 +1,4 @@
-#include "scene/cityjson_objects.h"
+#include "scene/readers/cityjson_objects.h"
 
 #include "scene/text.h"
 

@@ -1,4 +1,4 @@
-#include "scene/cityjson_geometry.h"
+#include "scene/readers/cityjson_geometry.h"
 
 #include <cmath>
 #include <limits>

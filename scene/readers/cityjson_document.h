@@ -1,7 +1,7 @@
 // One CityJSON document: a whole file, or a line of a CityJSONSeq.
 #pragma once
 
-#include "scene/cityjson_geometry.h"
+#include "scene/readers/cityjson_geometry.h"
 
 namespace veduta::cityjson {
 

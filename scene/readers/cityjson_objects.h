@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "scene/cityjson_geometry.h"
+#include "scene/readers/cityjson_geometry.h"
 
 namespace veduta::cityjson {
 

@@ -1,7 +1,7 @@
 // The parts of a document that its objects share: version, CRS, transform, templates, vertices.
 #include <cmath>
 
-#include "scene/cityjson_document.h"
+#include "scene/readers/cityjson_document.h"
 #include "scene/text.h"
 
 namespace veduta::cityjson {

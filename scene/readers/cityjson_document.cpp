@@ -1,11 +1,11 @@
-#include "scene/cityjson_document.h"
+#include "scene/readers/cityjson_document.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
 
-#include "scene/cityjson_objects.h"
+#include "scene/readers/cityjson_objects.h"
 #include "scene/text.h"
 
 namespace veduta::cityjson {

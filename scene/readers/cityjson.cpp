@@ -1,10 +1,10 @@
-#include "scene/cityjson.h"
+#include "scene/readers/cityjson.h"
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "scene/cityjson_document.h"
+#include "scene/readers/cityjson_document.h"
 
 namespace veduta {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene/obj.h"
+#include "scene/readers/obj.h"
 
 #include <algorithm>
 #include <array>
@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <limits>
 #include <unordered_map>
+
+#include "scene/names.h"
 
 namespace veduta {
 namespace {
@@ -37,30 +39,6 @@ string_view next_word(string_view& rest) {
   const string_view word = rest.substr(0, end);
   rest.remove_prefix(end);
   return word;
-}
-
-// "Road_5" and "road" start with the word "road", "roadhouse" does not.
-bool starts_with_word(string_view text, string_view lower) {
-  if (text.size() > lower.size() && std::isalpha(static_cast<unsigned char>(text[lower.size()])))
-    return false;
-  return text.size() >= lower.size() &&
-         std::equal(lower.begin(), lower.end(), text.begin(), [](char a, char b) {
-           return a == static_cast<char>(std::tolower(static_cast<unsigned char>(b)));
-         });
-}
-
-Kind kind_of(string_view name) {
-  constexpr std::array<std::pair<string_view, Kind>, 8> prefixes{{{"terrain", Kind::terrain},
-                                                                  {"ground", Kind::terrain},
-                                                                  {"road", Kind::road},
-                                                                  {"water", Kind::water},
-                                                                  {"vegetation", Kind::vegetation},
-                                                                  {"tree", Kind::vegetation},
-                                                                  {"bridge", Kind::bridge},
-                                                                  {"other", Kind::other}}};
-  for (const auto& [prefix, kind] : prefixes)
-    if (starts_with_word(name, prefix)) return kind;
-  return Kind::building;
 }
 
 // Faces between two changes of object or group.
@@ -202,7 +180,7 @@ class ObjReader {
     for (size_t i = 0; i < count; ++i) {
       RawObject& object = model_.objects[i];
       object.name = i == 0 ? file_.stem : (groups_are_objects ? group_names_[i - 1] : object_names_[i - 1]);
-      object.kind = kind_of(object.name);
+      object.kind = kind_of_name(object.name);
       object.place = file_.name + ": " + (groups_are_objects ? "g " : "o ") + printable(object.name);
     }
     if (!groups_are_objects)  // parts are runs of triangles: bring each group's faces together
