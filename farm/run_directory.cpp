@@ -12,8 +12,8 @@
 #include <sstream>
 
 #include "pvs/pvs_file.h"
-#include "pvs/sync_path.h"
 #include "scene/error.h"
+#include "scene/sync_path.h"
 
 namespace veduta {
 namespace {

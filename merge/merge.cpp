@@ -14,6 +14,7 @@
 #include "merge/child.h"
 #include "merge/record_pool.h"
 #include "pvs/pvs_file.h"
+#include "scene/atomic_file.h"
 #include "scene/error.h"
 
 namespace veduta {

@@ -15,12 +15,6 @@ City read_city_columns(const hdf5::Input& input, ColumnDigests& digests);
 void write_root(hdf5::Output& output, const RootAttributes& root);
 RootAttributes read_root(const hdf5::Input& input, const std::string& format);
 
-/// Runs `write` on a temporary name beside `file`, runs `check` on the closed result, syncs and renames.
-/// Nothing is left behind by a failure.
-void write_atomically(const std::filesystem::path& file,
-                      const std::function<void(const std::filesystem::path&)>& write,
-                      const std::function<void(const std::filesystem::path&)>& check);
-
 /// Reads every dataset again and compares with what was meant to be written: HDF5 1.10 has closed a file on a
 /// full disk successfully, with other values in it. \throw Error(input_output).
 void check_written(const std::filesystem::path& temporary, const ColumnDigests& digests,

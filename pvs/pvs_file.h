@@ -64,10 +64,6 @@ struct PvsFile {
 ///   Error(input_output) when it cannot be read.
 PvsFile read_pvs(const std::filesystem::path& file);
 
-/// The temporary name that a process with this id writes to, beside `file`: to be removed when that process
-/// died.
-std::filesystem::path temporary_name(const std::filesystem::path& file, long pid);
-
 /// Where the writer asks for the row of cell c, c ascending; called once per cell. Memory does not grow with
 /// cells.
 struct BakedCell {

@@ -4,6 +4,7 @@
 
 #include "pvs/city_columns.h"
 #include "pvs/pvs_check.h"
+#include "scene/atomic_file.h"
 #include "scene/error.h"
 
 namespace veduta {

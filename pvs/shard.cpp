@@ -16,8 +16,8 @@
 
 #include "pvs/crc32c.h"
 #include "pvs/shard_format.h"
-#include "pvs/sync_path.h"
 #include "scene/error.h"
+#include "scene/sync_path.h"
 
 namespace veduta {
 

@@ -7,8 +7,8 @@
 
 #include "pvs/pvs_file.h"
 #include "pvs/run_paths.h"
-#include "pvs/sync_path.h"
 #include "scene/error.h"
+#include "scene/sync_path.h"
 #include "worker/prepare.h"
 
 namespace veduta {

@@ -1,4 +1,4 @@
-#include "pvs/sync_path.h"
+#include "scene/sync_path.h"
 
 #include <fcntl.h>
 #include <unistd.h>
