@@ -45,21 +45,53 @@ void write_names(Output& output, const Column& column, const Items& items, Colum
   digests[column.path] = writer.finish();
 }
 
+/// The file holds every triangle that there is to see: instances are placed one by one, so that memory holds
+/// one of them.
+void write_geometry(Output& output, const Scene& scene, ColumnDigests& digests) {
+  uint64_t vertex_count = scene.vertices.size();
+  for (const Instance& instance : scene.instances)
+    vertex_count += scene.meshes[instance.mesh].vertices.size();
+  ColumnWriter vertices(output, column::vertices, vertex_count);
+  vertices.append(scene.vertices.data(), scene.vertices.size());
+  for (const Instance& instance : scene.instances) {
+    const std::vector<glm::vec3> placed = placed_vertices(scene, instance);
+    vertices.append(placed.data(), placed.size());
+  }
+  digests[column::vertices.path] = vertices.finish();
+
+  ColumnWriter triangles(output, column::triangles, scene.triangle_count());
+  triangles.append(scene.triangles.data(), scene.triangles.size());
+  uint32_t first_vertex = static_cast<uint32_t>(scene.vertices.size());
+  for (const Instance& instance : scene.instances) {
+    std::vector<glm::uvec3> placed = placed_triangles(scene, instance);
+    for (glm::uvec3& triangle : placed) triangle += first_vertex;
+    triangles.append(placed.data(), placed.size());
+    first_vertex += static_cast<uint32_t>(scene.meshes[instance.mesh].vertices.size());
+  }
+  digests[column::triangles.path] = triangles.finish();
+
+  ColumnWriter material(output, column::material, scene.triangle_count());
+  material.append(scene.material.data(), scene.material.size());
+  for (const Instance& instance : scene.instances) {
+    const std::vector<Material>& shared = scene.meshes[instance.mesh].material;
+    material.append(shared.data(), shared.size());
+  }
+  digests[column::material.path] = material.finish();
+}
+
 void write_scene(Output& output, const City& city, ColumnDigests& digests) {
   const Scene& scene = city.scene;
   for (const char* group : {"/scene", "/scene/objects", "/scene/parts"}) output.group(group);
   static_assert(sizeof(glm::vec3) == 12 && sizeof(glm::uvec3) == 12 && sizeof(Box) == 24 &&
                 sizeof(SliceCounts) == 3);
-  write_rows(output, column::vertices, scene.vertices, digests);
-  write_rows(output, column::triangles, scene.triangles, digests);
-  write_rows(output, column::material, scene.material, digests);
+  write_geometry(output, scene, digests);
   write_rows(output, column::triangle_slice, city.triangle_slices, digests);
   write_names(output, column::object_name, scene.objects, digests);
   write_members<Kind>(
       output, column::object_kind, scene.objects, [](const Object& o) { return o.kind; }, digests);
-  write_members<Box>(
-      output, column::object_bounds, scene.objects,
-      [&](const Object& o) { return triangle_bounds(scene, o); }, digests);
+  std::vector<Box> bounds;
+  for (size_t o = 0; o < scene.objects.size(); ++o) bounds.push_back(scene.bounds(o));
+  write_rows(output, column::object_bounds, bounds, digests);
   std::vector<uint64_t> begin{0};
   for (const Object& object : scene.objects) begin.push_back(object.triangle_end);
   write_rows(output, column::object_begin, begin, digests);

@@ -20,11 +20,16 @@ bool finite(const glm::vec3& v) {
 
 Defect check_arrays(const City& city) {
   const Scene& scene = city.scene;
-  if (scene.vertices.size() > UINT32_MAX) return "/scene/vertices: more than 2^32 - 1";
+  uint64_t vertices = scene.vertices.size();
+  for (const Instance& instance : scene.instances) {
+    if (instance.mesh >= scene.meshes.size()) return "/scene: an instance of a mesh that is not there";
+    vertices += scene.meshes[instance.mesh].vertices.size();
+  }
+  if (vertices > UINT32_MAX) return "/scene/vertices: more than 2^32 - 1";
+  if (scene.instances.size() > scene.objects.size()) return "/scene/objects: fewer than instances";
   if (scene.objects.size() > UINT32_MAX) return "/scene/objects: more than 2^32 - 1";
   if (city.cells.size() > UINT32_MAX) return "/cells/bounds: more than 2^32 - 1";
-  if (scene.material.size() != scene.triangles.size()) return "/scene/material: not one for each triangle";
-  if (city.triangle_slices.size() != scene.triangles.size())
+  if (city.triangle_slices.size() != scene.triangle_count())
     return "/scene/triangle_slice: not one for each triangle";
   if (city.slices.size() != scene.objects.size()) return "/scene/objects/slices: not one for each object";
   for (const double x : scene.origin)
@@ -39,28 +44,46 @@ Defect check_arrays(const City& city) {
   return {};
 }
 
-Defect check_geometry(const Scene& scene) {
-  for (size_t v = 0; v < scene.vertices.size(); ++v)
-    if (!finite(scene.vertices[v])) return fmt::format("/scene/vertices: vertex {} is not finite", v);
-  for (size_t t = 0; t < scene.triangles.size(); ++t) {
-    const glm::uvec3 corner = scene.triangles[t];
-    if (std::max({corner.x, corner.y, corner.z}) >= scene.vertices.size())
+Defect check_triangles(const std::vector<glm::vec3>& vertices, const std::vector<glm::uvec3>& triangles,
+                       const std::vector<Material>& material) {
+  if (material.size() != triangles.size()) return "/scene/material: not one for each triangle";
+  for (size_t v = 0; v < vertices.size(); ++v)
+    if (!finite(vertices[v])) return fmt::format("/scene/vertices: vertex {} is not finite", v);
+  for (size_t t = 0; t < triangles.size(); ++t) {
+    const glm::uvec3 corner = triangles[t];
+    if (std::max({corner.x, corner.y, corner.z}) >= vertices.size())
       return fmt::format("/scene/triangles: triangle {} names a vertex that is not there", t);
-    if (scene.material[t] > Material::door)
-      return fmt::format("/scene/material: triangle {}: unknown material", t);
+    if (material[t] > Material::door) return fmt::format("/scene/material: triangle {}: unknown material", t);
   }
+  return {};
+}
+
+Defect check_geometry(const Scene& scene) {
+  if (Defect defect = check_triangles(scene.vertices, scene.triangles, scene.material)) return defect;
+  for (const SharedMesh& mesh : scene.meshes)
+    if (Defect defect = check_triangles(mesh.vertices, mesh.triangles, mesh.material)) return defect;
+  for (const Instance& instance : scene.instances)
+    for (int column = 0; column < 4; ++column)
+      for (int row = 0; row < 3; ++row)
+        if (!std::isfinite(instance.scene_from_mesh[column][row]))
+          return "/scene: an instance whose placement is not finite";
   return {};
 }
 
 Defect check_objects(const City& city) {
   const Scene& scene = city.scene;
-  uint64_t end = 0;
+  uint64_t end = 0, own = 0;
   for (size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
+    const Instance* instance = scene.instance_of(i);
+    const uint64_t size = object.triangle_end - object.triangle_begin;
     if (object.triangle_begin != end || object.triangle_end < end ||
-        object.triangle_end > scene.triangles.size())
+        object.triangle_end > city.triangle_slices.size() ||
+        (instance == nullptr ? object.triangle_end > scene.triangles.size()
+                             : size != scene.meshes[instance->mesh].triangles.size()))
       return fmt::format("/scene/objects/triangle_begin: object {} does not follow the one before it", i);
     end = object.triangle_end;
+    if (instance == nullptr) own = end;
     if (object.kind > Kind::other) return fmt::format("/scene/objects/kind: object {}: unknown kind", i);
     const SliceCounts n = city.slices[i];
     if (n.x < 1 || n.y < 1 || n.z < 1 || n.x > 127 || n.y > 127 || n.z > 127)
@@ -75,8 +98,8 @@ Defect check_objects(const City& city) {
         return fmt::format("/scene/triangle_slice: triangle {} is outside of the slices of object {}", t, i);
     }
   }
-  if (end != scene.triangles.size())
-    return fmt::format("/scene/objects/triangle_begin: {} of {} triangles belong to an object", end,
+  if (own != scene.triangles.size())
+    return fmt::format("/scene/objects/triangle_begin: {} of {} triangles belong to an object", own,
                        scene.triangles.size());
   for (size_t i = 0; i < scene.parts.size(); ++i) {
     const Part& part = scene.parts[i];

@@ -38,11 +38,4 @@ std::string header_digest(const RootAttributes& root) {
   return digest.hex();
 }
 
-Box triangle_bounds(const Scene& scene, const Object& object) {
-  Box box;
-  for (uint64_t t = object.triangle_begin; t < object.triangle_end; ++t)
-    for (int k = 0; k < 3; ++k) box.extend(scene.vertices[scene.triangles[t][k]]);
-  return box;
-}
-
 }  // namespace veduta

@@ -108,7 +108,4 @@ std::string content_digest(const City& city, bool conservative, const ColumnDige
 /// XXH3-128 over the root's attributes: without it, a flipped bit in a text could go unseen.
 std::string header_digest(const RootAttributes& root);
 
-/// Bounds over the vertices that the object's triangles use.
-Box triangle_bounds(const Scene& scene, const Object& object);
-
 }  // namespace veduta

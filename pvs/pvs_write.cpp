@@ -96,7 +96,7 @@ void refuse_defects(const City& city, const std::filesystem::path& file) {
 /// The least that the file can take: a refusal now is better than one after an hour.
 uint64_t least_bytes(const City& city) {
   const Scene& scene = city.scene;
-  const uint64_t raw = scene.vertices.size() * 12 + scene.triangles.size() * 19 + city.cells.size() * 33 +
+  const uint64_t raw = scene.vertices.size() * 12 + scene.triangle_count() * 19 + city.cells.size() * 33 +
                        city.navigation.ground.height.size() * 4;
   return raw / 8;
 }

@@ -4,55 +4,54 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/vec4.hpp>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <tuple>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "scene/draft.h"
+#include "scene/extent.h"
+#include "scene/polygon_drafts.h"
 #include "scene/terrain_skirt.h"
 #include "scene/text.h"
-#include "scene/triangulate.h"
 #include "scene/vertex_pool.h"
 
 namespace veduta {
 namespace {
-
-constexpr uint32_t unset = std::numeric_limits<uint32_t>::max();
-constexpr double largest_span_m = 2e7;  // float32 steps are 1 m there: nothing sensible is left
-
-struct Extent {
-  glm::dvec3 lower{std::numeric_limits<double>::infinity()};
-  glm::dvec3 upper{-std::numeric_limits<double>::infinity()};
-};
-
-Extent extent_of(const std::vector<RawModel>& models) {
-  Extent all;
-  for (const RawModel& model : models) {
-    if (model.ring_vertex.empty())
-      throw bad_input(model.file, "whole file", "holds no surface; check what was exported");
-    for (const uint32_t index : model.ring_vertex) {
-      all.lower = glm::min(all.lower, model.vertices[index]);
-      all.upper = glm::max(all.upper, model.vertices[index]);
-    }
-    const glm::dvec3 span = all.upper - all.lower;
-    if (!(std::max({span.x, span.y, span.z}) <= largest_span_m))
-      throw bad_input(model.file, "vertices",
-                      fmt::format("the surfaces span {:.3g} x {:.3g} x {:.3g} m, more than 20,000 km; "
-                                  "check the coordinates and that all files share a CRS",
-                                  span.x, span.y, span.z));
-  }
-  return all;
-}
 
 glm::dvec3 origin_of(const Extent& extent) {
   const glm::dvec3 middle = extent.lower + 0.5 * (extent.upper - extent.lower);
   return {std::round(middle.x), std::round(middle.y), std::round(extent.lower.z)};
 }
 
-std::string place_of(const RawModel& model, const RawPatch& patch, uint64_t polygon) {
-  const uint32_t line = model.polygons[polygon].line;
-  return line == 0 ? patch.place : patch.place + ": line " + std::to_string(line);
+// Objects with equal keys are instances of one mesh.
+using MeshKey = std::tuple<uint64_t, uint64_t, size_t, Kind>;
+
+MeshKey key_of(const RawObject& object) {
+  return {object.patches.front().polygon_begin, object.patches.back().polygon_end, object.patches.size(),
+          object.kind};
+}
+
+// Terrain is cut into tiles and closed below: it stands for itself.
+bool may_share(const RawObject& object) {
+  return object.placement != RawObject::unplaced && !object.patches.empty() && object.kind != Kind::terrain;
+}
+
+// The runs of triangles that have a part's name.
+std::vector<Part> parts_of(const RawObject& object, const std::vector<Draft>& drafts) {
+  std::vector<Part> parts;
+  for (size_t i = 0; i < drafts.size(); ++i) {
+    const std::string& name = object.patches[drafts[i].patch].part;
+    if (name.empty()) continue;
+    if (parts.empty() || parts.back().triangle_end != i || parts.back().name != name)
+      parts.push_back({name, 0, i, i});
+    parts.back().triangle_end = i + 1;
+  }
+  return parts;
 }
 
 class Assembler {
@@ -63,139 +62,138 @@ class Assembler {
     result_.scene.origin = {origin.x, origin.y, origin.z};
   }
 
+  /// Adds the objects with triangles of their own: all but those whose mesh is there more than once.
   void add(const RawModel& model) {
-    model_ = &model;
-    scene_index_.assign(model.vertices.size(), unset);
-    const size_t before = result_.scene.triangles.size();
-    for (const RawObject& object : model.objects) add(object);
-    if (result_.scene.triangles.size() == before)
-      throw bad_input(model.file, "whole file",
-                      fmt::format("none of its {} polygons gives a triangle (no area, or edges that cross "
-                                  "too often); check the unit and the coordinates",
-                                  model.polygons.size()));
+    const size_t before = result_.scene.triangles.size(), shared_before = shared_.size();
+    std::map<MeshKey, uint64_t> uses;
+    for (const RawObject& object : model.objects)
+      if (may_share(object)) ++uses[key_of(object)];
+    PolygonDrafts polygons(model, origin_, pool_, result_.report);
+    for (const RawObject& object : model.objects) {
+      if (may_share(object) && uses[key_of(object)] > 1)
+        shared_.push_back({&model, &object});
+      else
+        add(object, polygons.of(object, true));
+    }
+    if (result_.scene.triangles.size() == before && shared_.size() == shared_before)
+      count_dropped(result_.report, "file without a triangle", model.file);
+  }
+
+  /// Adds the instances of all models; they come last in a scene.
+  void add_instances() {
+    const RawModel* model = nullptr;
+    std::map<MeshKey, Shared> known;
+    for (const auto& [of, object] : shared_) {
+      if (of != model) known.clear();
+      model = of;
+      const auto [mesh, fresh] = known.try_emplace(key_of(*object));
+      if (fresh) mesh->second = share(*model, *object);
+      add_instance(*object, model->placements[object->placement], mesh->second);
+    }
   }
 
   ImportResult take() { return std::move(result_); }
 
  private:
-  void add(const RawObject& object) {
-    drafts_.clear();
-    for (uint32_t i = 0; i < object.patches.size(); ++i)
-      for (uint64_t p = object.patches[i].polygon_begin; p < object.patches[i].polygon_end; ++p)
-        add_polygon(object, i, p);
-    for (const Draft& twin : remove_duplicates(drafts_))
-      drop("duplicate triangle", object, twin.patch, twin.polygon);
-    if (drafts_.empty()) {
-      count_dropped(result_.report, "object without triangles", object.place);
-      return;
-    }
-    if (object.kind == Kind::terrain) {
-      const std::vector<Draft> walls = terrain_skirt(drafts_, result_.scene.vertices, pool_, bottom_);
+  struct Shared {
+    uint32_t mesh = 0;
+    glm::dvec3 origin{0};  // of its space, in that of the file
+    std::vector<Part> parts;
+  };
+
+  void add(const RawObject& object, std::vector<Draft> drafts) {
+    if (drafts.empty()) return;
+    const bool terrain = object.kind == Kind::terrain;
+    if (terrain) {
+      const std::vector<Draft> walls = terrain_skirt(drafts, result_.scene.vertices, pool_, bottom_);
       result_.report.skirt_triangles += walls.size();
-      drafts_.insert(drafts_.end(), walls.begin(), walls.end());
+      drafts.insert(drafts.end(), walls.begin(), walls.end());
     }
-    order_.resize(drafts_.size());
-    std::iota(order_.begin(), order_.end(), 0u);
     const std::string name = unique(object.name.empty() ? kind_name(object.kind) : object.name);
-    if (object.kind == Kind::terrain && options_.terrain_tile_m > 0)
-      emit_tiles(name);
-    else
-      emit_whole(object, name);
-  }
-
-  void add_polygon(const RawObject& object, uint32_t patch, uint64_t polygon) {
-    gather(polygon);
-    ++result_.report.polygons;
-    if (ring_end_.size() > 1) ++result_.report.polygons_with_holes;
-    triangles_.clear();
-    const size_t own_points = points_.size();
-    const Triangulation answer = triangulate(points_, ring_end_, triangles_);
-    if (answer != Triangulation::done) {
-      const bool flat = answer == Triangulation::degenerate;
-      drop(flat ? "degenerate polygon" : "polygon that cannot be triangulated", object, patch, polygon);
-      return;
-    }
-    if (points_.size() > own_points)
-      count_dropped(result_.report, "crossing of a polygon's edges, mended",
-                    place_of(*model_, object.patches[patch], polygon));
-    for (const auto& [a, b, c] : triangles_) {
-      const glm::vec3 pa(points_[a]), pb(points_[b]), pc(points_[c]);
-      if (degenerate(pa, pb, pc)) {
-        drop("degenerate triangle", object, patch, polygon);
-        continue;
-      }
-      const Material stated = model_->polygons[polygon].material;
-      drafts_.push_back({{scene_vertex(a), scene_vertex(b), scene_vertex(c)},
-                         stated == Material::unknown ? material_of(object.kind, pa, pb, pc) : stated,
-                         patch,
-                         polygon});
+    if (terrain && options_.terrain_tile_m > 0) {
+      emit_tiles(name, drafts);
+    } else {
+      add_parts(parts_of(object, drafts), result_.scene.triangles.size());
+      emit(name, object.kind, drafts.begin(), drafts.end());
     }
   }
 
-  void gather(uint64_t polygon) {
-    points_.clear();
-    ring_end_.clear();
-    source_.clear();
-    for (uint64_t r = model_->rings_before(polygon); r < model_->polygons[polygon].ring_end; ++r) {
-      for (uint64_t i = model_->corners_before(r); i < model_->ring_end[r]; ++i) {
-        source_.push_back(model_->ring_vertex[i]);
-        points_.push_back(model_->vertices[source_.back()] - origin_);
-      }
-      ring_end_.push_back(points_.size());
+  // A space of its own, near which float32 is fine: a block may be drawn anywhere.
+  Shared share(const RawModel& model, const RawObject& object) {
+    const Extent own = own_extent(model, object);
+    Shared shared{0, glm::round(0.5 * (own.lower + own.upper)), {}};
+    SharedMesh mesh;
+    VertexPool pool(mesh.vertices);
+    const std::vector<Draft> drafts =
+        PolygonDrafts(model, shared.origin, pool, result_.report).of(object, false);
+    shared.parts = parts_of(object, drafts);
+    for (const Draft& draft : drafts) {
+      mesh.triangles.push_back(draft.corners);
+      mesh.material.push_back(draft.material);
     }
+    shared.mesh = static_cast<uint32_t>(result_.scene.meshes.size());
+    result_.scene.meshes.push_back(std::move(mesh));
+    return shared;
   }
 
-  uint32_t scene_vertex(uint32_t corner) {
-    const glm::vec3 position = glm::vec3(points_[corner]) + 0.0f;  // -0 and 0 are one place
-    if (corner >= source_.size()) return pool_.index_of(position);
-    uint32_t& known = scene_index_[source_[corner]];
-    if (known == unset) known = pool_.index_of(position);
-    return known;
-  }
-
-  void drop(const char* reason, const RawObject& object, uint32_t patch, uint64_t polygon) {
-    count_dropped(result_.report, reason, place_of(*model_, object.patches[patch], polygon));
-  }
-
-  // Appends an object of the drafts [begin, end) in the order of `order_`.
-  void emit(const std::string& name, Kind kind, size_t begin, size_t end) {
+  void add_instance(const RawObject& object, const glm::dmat4x3& placement, const Shared& shared) {
     Scene& scene = result_.scene;
-    Object object{name, kind, scene.triangles.size(), 0};
-    for (size_t i = begin; i < end; ++i) {
-      scene.triangles.push_back(drafts_[order_[i]].corners);
-      scene.material.push_back(drafts_[order_[i]].material);
+    const uint64_t begin = scene.triangle_count(), count = scene.meshes[shared.mesh].triangles.size();
+    if (count == 0) return;  // counted when the mesh was made
+    vertices_ += scene.meshes[shared.mesh].vertices.size();
+    if (std::max(begin + count, scene.vertices.size() + vertices_) >= std::numeric_limits<uint32_t>::max())
+      throw Error(ExitStatus::bad_input,
+                  object.place +
+                      ": with its instances the model has more than 4 billion triangles or vertices; "
+                      "cut it into tiles");
+    Instance instance{shared.mesh, placement};
+    instance.scene_from_mesh[3] = placement * glm::dvec4(shared.origin, 1) - origin_;
+    scene.instances.push_back(instance);
+    add_parts(shared.parts, begin);
+    push_object(unique(object.name.empty() ? kind_name(object.kind) : object.name), object.kind, begin,
+                count);
+    ++result_.report.instances;
+  }
+
+  // Parts of the object that is added next, whose triangles are numbered from `first` on.
+  void add_parts(std::vector<Part> parts, uint64_t first) {
+    for (Part& part : parts) {
+      part.object = static_cast<uint32_t>(result_.scene.objects.size());
+      part.triangle_begin += first, part.triangle_end += first;
+      result_.scene.parts.push_back(std::move(part));
+      ++result_.report.parts;
     }
-    object.triangle_end = scene.triangles.size();
-    scene.objects.push_back(std::move(object));
+  }
+
+  using DraftIterator = std::vector<Draft>::const_iterator;
+  void emit(const std::string& name, Kind kind, DraftIterator begin, DraftIterator end) {
+    Scene& scene = result_.scene;
+    const uint64_t first = scene.triangles.size();
+    for (auto draft = begin; draft != end; ++draft) {
+      scene.triangles.push_back(draft->corners);
+      scene.material.push_back(draft->material);
+    }
+    push_object(name, kind, first, scene.triangles.size() - first);
+  }
+
+  void push_object(const std::string& name, Kind kind, uint64_t begin, uint64_t count) {
+    result_.scene.objects.push_back({name, kind, begin, begin + count});
     ++result_.report.objects_by_kind[kind_name(kind)];
   }
 
-  void emit_whole(const RawObject& object, const std::string& name) {
-    const uint64_t first = result_.scene.triangles.size();
-    emit(name, object.kind, 0, drafts_.size());
-    std::vector<Part>& parts = result_.scene.parts;
-    const auto object_index = static_cast<uint32_t>(result_.scene.objects.size() - 1);
-    const size_t parts_before = parts.size();
-    for (size_t i = 0; i < drafts_.size(); ++i) {
-      const std::string& part = object.patches[drafts_[i].patch].part;
-      if (part.empty()) continue;
-      const bool goes_on =
-          parts.size() > parts_before && parts.back().triangle_end == first + i && parts.back().name == part;
-      if (!goes_on) parts.push_back({part, object_index, first + i, 0});
-      parts.back().triangle_end = first + i + 1;
-    }
-    result_.report.parts += parts.size() - parts_before;
-  }
-
   // Tiles by row, then by column; the triangles of a tile in the file's order.
-  void emit_tiles(const std::string& name) {
-    const std::vector<Tile> tiles = tiles_of(drafts_, result_.scene.vertices, options_.terrain_tile_m);
-    std::stable_sort(order_.begin(), order_.end(),
-                     [&](uint32_t a, uint32_t b) { return tiles[a] < tiles[b]; });
-    for (size_t begin = 0, end = 0; begin < order_.size(); begin = end) {
-      const Tile tile = tiles[order_[begin]];
-      while (end < order_.size() && tiles[order_[end]] == tile) ++end;
-      emit(unique(fmt::format("{}/{}_{}", name, tile.column, tile.row)), Kind::terrain, begin, end);
+  void emit_tiles(const std::string& name, const std::vector<Draft>& drafts) {
+    const std::vector<Tile> tiles = tiles_of(drafts, result_.scene.vertices, options_.terrain_tile_m);
+    std::vector<uint32_t> order(drafts.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return tiles[a] < tiles[b]; });
+    std::vector<Draft> sorted;
+    for (const uint32_t i : order) sorted.push_back(drafts[i]);
+    for (size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+      const Tile tile = tiles[order[begin]];
+      while (end < order.size() && tiles[order[end]] == tile) ++end;
+      emit(unique(fmt::format("{}/{}_{}", name, tile.column, tile.row)), Kind::terrain,
+           sorted.begin() + static_cast<ptrdiff_t>(begin), sorted.begin() + static_cast<ptrdiff_t>(end));
     }
   }
 
@@ -215,15 +213,8 @@ class Assembler {
   VertexPool pool_{result_.scene.vertices};
   std::unordered_set<std::string> names_;
   std::unordered_map<std::string, uint64_t> last_suffix_;
-
-  const RawModel* model_ = nullptr;    // being added
-  std::vector<uint32_t> scene_index_;  // of each of its vertices, once used
-  std::vector<Draft> drafts_;          // of the object being added
-  std::vector<uint32_t> order_;        // in which they are emitted
-  std::vector<glm::dvec3> points_;     // of the polygon being added, relative to the origin
-  std::vector<uint32_t> source_;       // their vertices in the model
-  std::vector<uint64_t> ring_end_;
-  std::vector<std::array<uint32_t, 3>> triangles_;
+  std::vector<std::pair<const RawModel*, const RawObject*>> shared_;
+  uint64_t vertices_ = 0;  // of all instances
 };
 
 std::string common_crs(const std::vector<RawModel>& models) {
@@ -247,7 +238,13 @@ ImportResult assemble(const std::vector<RawModel>& models, const ImportOptions& 
   const Extent extent = extent_of(models);
   Assembler assembler(origin_of(extent), extent.lower.z, options, std::move(report));
   for (const RawModel& model : models) assembler.add(model);
+  assembler.add_instances();
   ImportResult result = assembler.take();
+  if (result.scene.objects.empty())
+    throw bad_input(models.front().file, "whole file",
+                    fmt::format("none of its {} polygons gives a triangle (no area, or edges that cross "
+                                "too often); check the unit and the coordinates",
+                                models.front().polygons.size()));
   result.scene.crs = crs;
   return result;
 }

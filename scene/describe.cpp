@@ -46,7 +46,7 @@ std::string describe(const ImportResult& result) {
   text += line("objects", objects_text(report, scene.objects.size()));
   text += line("parts", std::to_string(report.parts));
   text += line("polygons", fmt::format("{}, {} with holes", report.polygons, report.polygons_with_holes));
-  text += line("triangles", std::to_string(scene.triangles.size()));
+  text += line("triangles", std::to_string(scene.triangle_count()));
   text += line("vertices", std::to_string(scene.vertices.size()));
   text += line("extents", extents_text(scene, scene.bounds()));
   text += line("origin",

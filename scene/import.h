@@ -26,10 +26,10 @@ struct ImportOptions {
   /// The scene's CRS ("EPSG:3946"). Files that state another are transformed to it; files that state none are
   /// taken to be in it. Empty: the CRS of the first file that states one; when that is in degrees, the UTM
   /// zone of its middle.
-  std::string crs;
+  std::string crs = {};
   /// Names of the attributes of footprints that hold the height in m and the number of floors; empty: the
   /// usual names are tried (scene/footprints.h).
-  std::string height_field, floors_field;
+  std::string height_field = {}, floors_field = {};
   /// Height of a floor in m, where a footprint states floors and no height.
   double floor_height_m = 3.0;
 };
@@ -40,6 +40,7 @@ struct ImportReport {
   uint64_t bytes_read = 0;
   std::map<std::string, uint64_t> objects_by_kind;
   uint64_t parts = 0;
+  uint64_t instances = 0;  ///< objects that share a mesh with others
   uint64_t polygons = 0, polygons_with_holes = 0;
   uint64_t skirt_triangles = 0;  ///< added: walls below the open edges of terrain (terrain_skirt.h)
   /// Reason ("degenerate polygon", "duplicate triangle", "polygon that cannot be triangulated", "LoD 1 beside

@@ -15,7 +15,7 @@ DrawLister::DrawLister(const City& city, const IndexRanges& ranges) : city_(city
     throw Error(ExitStatus::usage,
                 fmt::format("the scene has {} triangles; the viewer draws at most {}", triangles, most));
   bounds_.reserve(city.scene.objects.size());
-  for (const Object& object : city.scene.objects) bounds_.push_back(city.scene.bounds(object));
+  for (size_t o = 0; o < city.scene.objects.size(); ++o) bounds_.push_back(city.scene.bounds(o));
 }
 
 DrawList DrawLister::list(const ActiveCells& active, const Frustum* frustum) const {

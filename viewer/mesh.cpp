@@ -26,7 +26,7 @@ Mesh make_mesh(const Scene& scene) {
   std::unordered_map<uint64_t, uint32_t> known;  // of one object: (vertex, material) to its place in the mesh
   for (uint32_t o = 0; o < scene.objects.size(); ++o) {
     const Object& object = scene.objects[o];
-    const float foot_m = scene.bounds(object).lower.z;
+    const float foot_m = scene.bounds(o).lower.z;
     known.clear();
     for (uint64_t t = object.triangle_begin; t < object.triangle_end; ++t) {
       glm::uvec3 corner;

@@ -78,7 +78,7 @@ Candidate rate(const PvsFile& file, const std::vector<Box>& bounds, uint32_t cel
 
 std::vector<Candidate> candidates(const PvsFile& file) {
   std::vector<Box> bounds;
-  for (const Object& object : file.city.scene.objects) bounds.push_back(file.city.scene.bounds(object));
+  for (size_t o = 0; o < file.city.scene.objects.size(); ++o) bounds.push_back(file.city.scene.bounds(o));
   const size_t cells = file.city.cells.size();
   const size_t stride = std::max<size_t>(1, cells / most_candidates);
   std::vector<Candidate> rated;

@@ -10,7 +10,7 @@ namespace {
 
 std::vector<Box> object_boxes(const Scene& scene) {
   std::vector<Box> boxes;
-  for (const Object& object : scene.objects) boxes.push_back(scene.bounds(object));
+  for (size_t o = 0; o < scene.objects.size(); ++o) boxes.push_back(scene.bounds(o));
   return boxes;
 }
 

@@ -4,8 +4,6 @@
 #include <array>
 #include <glm/vec3.hpp>
 
-#include "scene/scene.h"
-
 namespace veduta {
 
 /// A convex polygon of at most 7 corners: a triangle cut by four half-spaces.
@@ -14,9 +12,9 @@ struct ClippedTriangle {
   int count = 0;
 };
 
-inline ClippedTriangle triangle_of(const Scene& scene, uint64_t t) {
+inline ClippedTriangle uncut(const std::array<glm::vec3, 3>& corners) {
   ClippedTriangle triangle;
-  for (int n = 0; n < 3; ++n) triangle.corner[n] = scene.vertices[scene.triangles[t][n]];
+  for (int n = 0; n < 3; ++n) triangle.corner[n] = corners[n];
   triangle.count = 3;
   return triangle;
 }

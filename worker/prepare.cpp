@@ -71,7 +71,7 @@ Prepared prepare(const Settings& settings, const StageProgress& progress) {
                                        {settings.scene.terrain_tile_m});
   city.scene = std::move(imported.scene);
   prepared.notes.push_back(fmt::format("{}: {} objects, {} triangles", imported.report.format,
-                                       city.scene.objects.size(), city.scene.triangles.size()));
+                                       city.scene.objects.size(), city.scene.triangle_count()));
 
   stage("seed test");
   const GridFrame frame = make_frame(city.scene.bounds(), seeds_per_voxel * settings.navigation.seed_size_m);

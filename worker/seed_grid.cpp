@@ -39,37 +39,45 @@ void visit_touched_columns(const Scene& scene, const GridFrame& frame, const Col
   // Triangles by the band of rows that they touch, so that bands run in parallel without sharing a column.
   constexpr int band_rows = 64;
   const int bands = (frame.ny + band_rows - 1) / band_rows;
-  struct Item {
-    uint32_t triangle;
-    bool terrain;
+  const auto clip_to_band = [&](int b, bool terrain, const std::array<glm::vec3, 3>& corners) {
+    const auto [y0, y1] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
+    const int first = std::max(frame.column_y(y0 - margin), b * band_rows);
+    const int last = std::min(frame.column_y(y1 + margin), (b + 1) * band_rows - 1);
+    for (int j = first; j <= last; ++j) {
+      clip_to_row(uncut(corners), frame, j, margin, [&](int i, double z0, double z1) {
+        visit(i, j, frame.layer(z0 - margin), frame.layer(z1 + margin), {terrain, static_cast<float>(z1)});
+      });
+    }
   };
-  std::vector<std::vector<Item>> items(bands);
-  for (const Object& object : scene.objects) {
-    for (uint64_t t = object.triangle_begin; t < object.triangle_end; ++t) {
-      const glm::uvec3 v = scene.triangles[t];
-      const double y0 = std::min({scene.vertices[v.x].y, scene.vertices[v.y].y, scene.vertices[v.z].y});
-      const double y1 = std::max({scene.vertices[v.x].y, scene.vertices[v.y].y, scene.vertices[v.z].y});
-      for (int b = frame.column_y(y0 - margin) / band_rows; b <= frame.column_y(y1 + margin) / band_rows;
-           ++b) {
-        items[b].push_back({static_cast<uint32_t>(t), object.kind == Kind::terrain});
-      }
+  std::vector<std::vector<uint32_t>> own(bands), instances(bands);  // triangles; objects
+  for (uint32_t o = 0; o < scene.objects.size(); ++o) {
+    const bool placed = scene.instance_of(o) != nullptr;
+    const auto add = [&](uint32_t item, double y0, double y1) {
+      for (int b = frame.column_y(y0 - margin) / band_rows; b <= frame.column_y(y1 + margin) / band_rows; ++b)
+        (placed ? instances : own)[b].push_back(item);
+    };
+    if (placed) {
+      const Box box = scene.bounds(o);
+      add(o, box.lower.y, box.upper.y);
+    } else {
+      visit_triangles(scene, o, [&](uint64_t t, const std::array<glm::vec3, 3>& corners) {
+        const auto [y0, y1] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
+        add(static_cast<uint32_t>(t), y0, y1);
+      });
     }
   }
   tbb::parallel_for(0, bands, [&](int b) {
-    for (const Item& item : items[b]) {
-      const ClippedTriangle triangle = triangle_of(scene, item.triangle);
-      double y0 = std::numeric_limits<double>::infinity(), y1 = -y0;
-      for (int n = 0; n < 3; ++n)
-        y0 = std::min(y0, triangle.corner[n].y), y1 = std::max(y1, triangle.corner[n].y);
-      const int first = std::max(frame.column_y(y0 - margin), b * band_rows);
-      const int last = std::min(frame.column_y(y1 + margin), (b + 1) * band_rows - 1);
-      for (int j = first; j <= last; ++j) {
-        clip_to_row(triangle, frame, j, margin, [&](int i, double z0, double z1) {
-          visit(i, j, frame.layer(z0 - margin), frame.layer(z1 + margin),
-                {item.terrain, static_cast<float>(z1)});
-        });
-      }
+    size_t object = 0;
+    for (const uint32_t t : own[b]) {
+      while (t >= scene.objects[object].triangle_end) ++object;
+      const glm::uvec3 v = scene.triangles[t];
+      clip_to_band(b, scene.objects[object].kind == Kind::terrain,
+                   {scene.vertices[v.x], scene.vertices[v.y], scene.vertices[v.z]});
     }
+    for (const uint32_t o : instances[b])
+      visit_triangles(scene, o, [&](uint64_t, const std::array<glm::vec3, 3>& corners) {
+        clip_to_band(b, scene.objects[o].kind == Kind::terrain, corners);
+      });
   });
 }
 

@@ -43,7 +43,7 @@ void extend(Box& box, const ClippedTriangle& polygon) {
   }
 }
 
-std::array<Planes, 3> planes_of(const Scene& scene, const Object& object, const SliceCounts& n) {
+std::array<Planes, 3> planes_of(const Scene& scene, size_t object, const SliceCounts& n) {
   const Box b = scene.bounds(object);
   return {Planes(b.lower.x, b.upper.x, n.x), Planes(b.lower.y, b.upper.y, n.y),
           Planes(b.lower.z, b.upper.z, n.z)};
@@ -52,10 +52,9 @@ std::array<Planes, 3> planes_of(const Scene& scene, const Object& object, const 
 /// Fills the boxes of one object: for each vertical slice the box of each level, then cumulated upwards.
 void fill_boxes(const Scene& scene, uint32_t o, const SliceCounts& n,
                 const std::vector<TriangleSlices>& touched, const VerticalSlice* slice, Box* all) {
-  const Object& object = scene.objects[o];
-  const std::array<Planes, 3> planes = planes_of(scene, object, n);
-  for (uint64_t t = object.triangle_begin; t < object.triangle_end; ++t) {
-    const ClippedTriangle triangle = triangle_of(scene, t);
+  const std::array<Planes, 3> planes = planes_of(scene, o, n);
+  visit_triangles(scene, o, [&](uint64_t t, const std::array<glm::vec3, 3>& corners) {
+    const ClippedTriangle triangle = uncut(corners);
     const TriangleSlices& s = touched[t];
     for (int axis = 0; axis < 2; ++axis) {
       const int first = (axis == 0 ? s.x_first : s.y_first) - 1, last = (axis == 0 ? s.x_last : s.y_last) - 1;
@@ -67,7 +66,7 @@ void fill_boxes(const Scene& scene, uint32_t o, const SliceCounts& n,
         }
       }
     }
-  }
+  });
   for (int i = 0; i < n.x + n.y; ++i) {
     for (uint32_t h = 1; h < slice[i].heights; ++h)
       all[slice[i].first_box + h].extend(all[slice[i].first_box + h - 1]);
@@ -81,8 +80,8 @@ std::vector<SliceCounts> choose_slices(const Scene& scene, int most, double slic
   const auto count = [&](float extent) {
     return static_cast<uint8_t>(std::clamp(std::lround(extent / slice_size_m), 1L, static_cast<long>(most)));
   };
-  for (const Object& object : scene.objects) {
-    const Box b = scene.bounds(object);
+  for (size_t o = 0; o < scene.objects.size(); ++o) {
+    const Box b = scene.bounds(o);
     slices.push_back(
         {count(b.upper.x - b.lower.x), count(b.upper.y - b.lower.y), count(b.upper.z - b.lower.z)});
   }
@@ -90,22 +89,19 @@ std::vector<SliceCounts> choose_slices(const Scene& scene, int most, double slic
 }
 
 std::vector<TriangleSlices> slice_triangles(const Scene& scene, const std::vector<SliceCounts>& slices) {
-  std::vector<TriangleSlices> touched(scene.triangles.size());
-  for (size_t o = 0; o < scene.objects.size(); ++o) {
-    const Object& object = scene.objects[o];
-    const std::array<Planes, 3> planes = planes_of(scene, object, slices[o]);
-    for (uint64_t t = object.triangle_begin; t < object.triangle_end; ++t) {
-      const ClippedTriangle triangle = triangle_of(scene, t);
+  std::vector<TriangleSlices> touched(scene.triangle_count());
+  tbb::parallel_for(size_t{0}, scene.objects.size(), [&](size_t o) {
+    const std::array<Planes, 3> planes = planes_of(scene, o, slices[o]);
+    visit_triangles(scene, o, [&](uint64_t t, const std::array<glm::vec3, 3>& corners) {
       std::array<uint8_t, 6> range{};
       for (int axis = 0; axis < 3; ++axis) {
-        const auto [low, high] =
-            std::minmax({triangle.corner[0][axis], triangle.corner[1][axis], triangle.corner[2][axis]});
+        const auto [low, high] = std::minmax({corners[0][axis], corners[1][axis], corners[2][axis]});
         range[2 * axis] = static_cast<uint8_t>(planes[axis].slice(low) + 1);
         range[2 * axis + 1] = static_cast<uint8_t>(planes[axis].slice(high) + 1);
       }
       touched[t] = {range[0], range[1], range[2], range[3], range[4], range[5]};
-    }
-  }
+    });
+  });
   return touched;
 }
 

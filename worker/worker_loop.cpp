@@ -62,7 +62,7 @@ class Worker {
     const City& city = prepared.city;
     say(Verb::prepared, {{"cells", city.cells.size()},
                          {"objects", city.scene.objects.size()},
-                         {"triangles", city.scene.triangles.size()},
+                         {"triangles", city.scene.triangle_count()},
                          {"notes", prepared.notes}});
   }
 

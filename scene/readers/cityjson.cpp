@@ -107,7 +107,7 @@ class CityJsonReader {
     return true;
   }
 
-  void read_feature(string_view line, const cityjson::Header& header, uint64_t number) {
+  void read_feature(string_view line, cityjson::Header& header, uint64_t number) {
     if (line.find_first_not_of(" \t\r") == string_view::npos) return;
     const std::string place = "line " + std::to_string(number);
     const Element feature = parse(line);

@@ -1,5 +1,7 @@
 #include "scene/readers/cityjson_document.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -23,6 +25,7 @@ struct Geometry {
   Element element;  // of the object
   Element shape;    // where the boundaries are: the same, or the template
   bool instance = false;
+  size_t template_number = 0;
   std::string_view type;  // of the shape
   double lod = -1;
   std::string lod_text = "-";  // as the file states it
@@ -46,13 +49,15 @@ void read_lod(const Element& shape, Geometry& geometry) {
 
 class DocumentReader {
  public:
-  DocumentReader(const Header& header, const std::string& line, RawModel& model, ImportReport& report)
+  DocumentReader(Header& header, const std::string& line, RawModel& model, ImportReport& report)
       : header_(header), line_(line), model_(model), report_(report) {}
 
   void read(const Element& document) {
     read_vertices(document);
     objects_ = read_objects(document, model_.file, line_, report_);
     const std::vector<int> best_of_parts = best_lod_of_parts();
+    std::vector<uint32_t> members(objects_.size(), 0);  // of each root
+    for (const CityObject& object : objects_) ++members[object.root];
     std::vector<size_t> model_object(objects_.size(), none);
     for (size_t i = 0; i < objects_.size(); ++i) {
       const CityObject& root = objects_[objects_[i].root];
@@ -62,7 +67,8 @@ class DocumentReader {
         model_.objects.push_back(
             {printable(root.id, 10000), kind_of(root.type), model_.file + ": " + line_ + place_of(root), {}});
       }
-      add_geometries(objects_[i], model_.objects[target], objects_[i].root == i ? best_of_parts[i] : -1);
+      if (members[objects_[i].root] > 1 || !add_instance(objects_[i], model_.objects[target]))
+        add_geometries(objects_[i], model_.objects[target], objects_[i].root == i ? best_of_parts[i] : -1);
     }
   }
 
@@ -131,6 +137,7 @@ class DocumentReader {
       geometry.shape = header_.templates[number];
     else
       number = none;
+    geometry.template_number = number;
     if (number == none || geometry.shape["type"].get(geometry.type) != simdjson::SUCCESS)
       throw bad_input(model_.file, place(object, geometry) + "/template",
                       "is not among geometry-templates; check the export");
@@ -160,6 +167,46 @@ class DocumentReader {
     }
   }
 
+  // Whether the object is an instance: one template and nothing else, placed by an affine matrix.
+  bool add_instance(const CityObject& object, RawObject& target) {
+    Array all;
+    if (object.element["geometry"].get(all) != simdjson::SUCCESS || all.size() != 1) return false;
+    const std::vector<Geometry> geometries = surfaces_of(object, nullptr);
+    if (geometries.empty() || !geometries.front().instance) return false;
+    const Geometry& geometry = geometries.front();
+    const std::string where = place(object, geometry);
+    const Placement placed = placement_of(geometry, where);
+    const std::array<double, 16>& m = placed.matrix;
+    if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1) return false;
+    glm::dmat4x3 placement(1);
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 4; ++column)
+        placement[column][row] = m[static_cast<size_t>(4 * row + column)];
+    placement[3] += placed.anchor;
+    TemplateInModel& shared = header_.in_model[geometry.template_number];
+    if (!shared.read) read_template(geometry, where, shared);
+    if (shared.polygon_begin == shared.polygon_end) return true;
+    target.placement = static_cast<uint32_t>(model_.placements.size());
+    model_.placements.push_back(placement);
+    target.patches.push_back(
+        {"", fmt::format("{}: geometry-templates/templates/{}", model_.file, geometry.template_number),
+         shared.polygon_begin, shared.polygon_end});
+    return true;
+  }
+
+  void read_template(const Geometry& geometry, const std::string& where, TemplateInModel& shared) {
+    const std::vector<glm::dvec3>& points = header_.template_vertices;
+    if (!header_.first_template_vertex) {
+      header_.first_template_vertex = model_.vertices.size();
+      model_.vertices.insert(model_.vertices.end(), points.begin(), points.end());
+    }
+    VertexSource vertices(model_, *header_.first_template_vertex, points.size());
+    shared.read = true;
+    shared.polygon_begin = model_.polygons.size();
+    read_boundaries(geometry.shape, *levels_above_surfaces(geometry.type), where, vertices, model_, report_);
+    shared.polygon_end = model_.polygons.size();
+  }
+
   void add_geometry(const Geometry& geometry, const std::string& where, const std::string& part,
                     RawObject& target) {
     RawPatch patch{part, model_.file + ": " + where, model_.polygons.size(), 0};
@@ -176,24 +223,36 @@ class DocumentReader {
     if (patch.polygon_end > patch.polygon_begin) target.patches.push_back(std::move(patch));
   }
 
-  VertexSource instance_vertices(const Geometry& geometry, const std::string& where) const {
-    std::array<double, 16> matrix{};
+  struct Placement {
+    std::array<double, 16> matrix{};  // row-major
+    glm::dvec3 anchor{0};
+  };
+
+  Placement placement_of(const Geometry& geometry, const std::string& where) const {
+    Placement placed;
     Element element;
     if (geometry.element["transformationMatrix"].get(element) != simdjson::SUCCESS)
       throw bad_input(model_.file, where + "/transformationMatrix", "is missing; check the export");
-    read_numbers(element, matrix.size(), matrix.data(), model_.file, where + "/transformationMatrix");
+    read_numbers(element, placed.matrix.size(), placed.matrix.data(), model_.file,
+                 where + "/transformationMatrix");
     uint64_t anchor = 0;
     const Array boundaries = array_at(geometry.element, "boundaries", model_.file, where);
     if (boundaries.at(0).get(anchor) != simdjson::SUCCESS || anchor >= vertex_count_)
       throw bad_input(model_.file, where + "/boundaries/0", "is not the index of a vertex; check the export");
-    return VertexSource(model_, header_.template_vertices, matrix, model_.vertices[first_vertex_ + anchor]);
+    placed.anchor = model_.vertices[first_vertex_ + anchor];
+    return placed;
+  }
+
+  VertexSource instance_vertices(const Geometry& geometry, const std::string& where) const {
+    const Placement placed = placement_of(geometry, where);
+    return VertexSource(model_, header_.template_vertices, placed.matrix, placed.anchor);
   }
 
   std::string place(const CityObject& object, const Geometry& geometry) const {
     return line_ + place_of(object) + "/geometry/" + std::to_string(geometry.index);
   }
 
-  const Header& header_;
+  Header& header_;
   const std::string& line_;
   RawModel& model_;
   ImportReport& report_;
@@ -203,7 +262,7 @@ class DocumentReader {
 
 }  // namespace
 
-void read_document(const Element& document, const Header& header, const std::string& line, RawModel& model,
+void read_document(const Element& document, Header& header, const std::string& line, RawModel& model,
                    ImportReport& report) {
   DocumentReader(header, line, model, report).read(document);
 }

@@ -93,6 +93,7 @@ Header read_header(const Element& document, const std::string& file) {
     header.template_vertices =
         read_points(array_at(templates, "vertices-templates", file, "geometry-templates"), file,
                     "geometry-templates/vertices-templates");
+    header.in_model.resize(header.templates.size());
   }
   return header;
 }

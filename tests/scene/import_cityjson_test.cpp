@@ -180,12 +180,16 @@ TEST_F(ImportCityJson, TemplatesArePlaced) {
   const std::string objects = object("t1", "SolitaryVegetationObject", instance("0", "0")) + "," +
                               object("t2", "SolitaryVegetationObject", instance("6", "0"));
   const Scene scene = import("trees.json", cityjson(objects, cube_vertices, "2.0", templates)).scene;
-  expect_consistent(scene);
   ASSERT_EQ(scene.objects.size(), 2u);
+  EXPECT_EQ(scene.instances.size(), 2u);
+  ASSERT_EQ(scene.meshes.size(), 1u);
   EXPECT_EQ(scene.objects[0].kind, Kind::vegetation);
-  EXPECT_EQ(scene.material[0], Material::vegetation);
-  EXPECT_NEAR(area_m2(scene), 8, 1e-4);
-  const glm::vec3 apart = scene.bounds(scene.objects[1]).lower - scene.bounds(scene.objects[0]).lower;
+  EXPECT_EQ(scene.meshes[0].material[0], Material::vegetation);
+  for (size_t o = 0; o < 2; ++o)
+    visit_triangles(scene, o, [](uint64_t, const std::array<glm::vec3, 3>& p) {
+      EXPECT_NEAR(0.5f * glm::length(glm::cross(p[1] - p[0], p[2] - p[0])), 4, 1e-4);
+    });
+  const glm::vec3 apart = scene.bounds(1).lower - scene.bounds(0).lower;
   EXPECT_NEAR(glm::length(apart - glm::vec3(10, 10, 10)), 0, 1e-4);
   EXPECT_THROW(import("bad.json",
                       cityjson(object("t", "Building", instance("8", "0")), cube_vertices, "2.0", templates)),

@@ -52,8 +52,8 @@ TEST_F(Import, TerrainIsCutIntoTilesByCentroid) {
   EXPECT_EQ(whole.scene.triangles.size(), cut.scene.triangles.size());
   EXPECT_NEAR(area_m2(whole.scene), area_m2(cut.scene), 1e-3);
   glm::dvec2 corner(1e9);
-  for (const Object& object : whole.scene.objects)
-    if (object.kind == Kind::terrain) corner = glm::dvec2(whole.scene.bounds(object).lower);
+  for (size_t o = 0; o < whole.scene.objects.size(); ++o)
+    if (whole.scene.objects[o].kind == Kind::terrain) corner = glm::dvec2(whole.scene.bounds(o).lower);
   for (const Object& object : cut.scene.objects) {
     if (object.kind != Kind::terrain) continue;
     const std::string tile = object.name.substr(object.name.find('/') + 1);

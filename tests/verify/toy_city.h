@@ -37,7 +37,7 @@ inline bool touch(const Box& a, const Box& b) {
 /// split.
 inline FreeOctree free_around(const Scene& scene, const glm::vec3& lower, float leaf_size_m, uint32_t depth) {
   std::vector<Box> solid;
-  for (const Object& object : scene.objects) solid.push_back(scene.bounds(object));
+  for (size_t o = 0; o < scene.objects.size(); ++o) solid.push_back(scene.bounds(o));
   FreeOctree tree{lower, leaf_size_m, depth, {}, {}};
   std::vector<glm::uvec3> nodes{{0, 0, 0}};
   for (uint32_t level = 0; level < depth; ++level) {

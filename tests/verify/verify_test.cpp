@@ -103,7 +103,7 @@ TEST(Verify, SliceByteThatHidesAVisibleTriangleFails) {
 TEST(Verify, CoincidentWallOfWhichOneIsListedPasses) {
   for (const uint32_t listed : {1u, 4u}) {
     Scene scene = Street::scene();
-    toy::add_box(scene, "wall again", scene.bounds(scene.objects[Street::wall]));
+    toy::add_box(scene, "wall again", scene.bounds(Street::wall));
     const PvsFile file = toy::make_file(scene, {Street::cell()}, {Street::row({0, listed, 3})});
     EXPECT_TRUE(verify(file, few).passed()) << "listed: " << listed;
   }

@@ -68,7 +68,7 @@ TEST(SliceTriangles, HoldEveryCornerAndNothingBeyond) {
   ASSERT_EQ(touched.size(), mesh.scene.triangles.size());
   for (size_t o = 0; o < mesh.scene.objects.size(); ++o) {
     const Object& object = mesh.scene.objects[o];
-    const Box b = mesh.scene.bounds(object);
+    const Box b = mesh.scene.bounds(o);
     for (uint64_t t = object.triangle_begin; t < object.triangle_end; ++t) {
       const int n[3] = {counts[o].x, counts[o].y, counts[o].z};
       const int first[3] = {touched[t].x_first, touched[t].y_first, touched[t].z_first};
@@ -97,7 +97,7 @@ TEST(SliceBoxes, HoldEveryPointOfATriangleInItsSliceAtItsHeight) {
   const SliceBoxes boxes = slice_boxes(mesh.scene, counts, slice_triangles(mesh.scene, counts));
   for (size_t o = 0; o < mesh.scene.objects.size(); ++o) {
     const Object& object = mesh.scene.objects[o];
-    const Box b = mesh.scene.bounds(object);
+    const Box b = mesh.scene.bounds(o);
     for (uint64_t t = object.triangle_begin; t < object.triangle_end; ++t) {
       const glm::uvec3 v = mesh.scene.triangles[t];
       for (int sample = 0; sample < 40; ++sample) {
@@ -129,7 +129,7 @@ TEST(SliceBoxes, AreTightAndNested) {
   ASSERT_EQ(boxes.object_slice_begin.back(), boxes.slices.size());
   size_t next_box = 0;
   for (uint32_t o = 0; o < mesh.scene.objects.size(); ++o) {
-    const Box b = mesh.scene.bounds(mesh.scene.objects[o]);
+    const Box b = mesh.scene.bounds(o);
     const uint32_t begin = boxes.object_slice_begin[o];
     ASSERT_EQ(boxes.object_slice_begin[o + 1] - begin, static_cast<uint32_t>(counts[o].x + counts[o].y));
     Box all;
