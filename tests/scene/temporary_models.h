@@ -15,6 +15,26 @@
 
 namespace veduta {
 
+/// The scene with the triangles of its instances written out, as a PVS file holds them.
+inline Scene written_out(Scene scene) {
+  for (const Instance& instance : scene.instances) {
+    const auto first = static_cast<uint32_t>(scene.vertices.size());
+    for (const glm::vec3& vertex : placed_vertices(scene, instance)) scene.vertices.push_back(vertex);
+    for (const glm::uvec3& triangle : placed_triangles(scene, instance))
+      scene.triangles.push_back(triangle + first);
+    const std::vector<Material>& material = scene.meshes[instance.mesh].material;
+    scene.material.insert(scene.material.end(), material.begin(), material.end());
+  }
+  scene.instances.clear();
+  scene.meshes.clear();
+  return scene;
+}
+
+/// \param object of the scene, not a copy
+inline Box bounds_of(const Scene& scene, const Object& object) {
+  return scene.bounds(static_cast<size_t>(&object - scene.objects.data()));
+}
+
 class TemporaryModels : public testing::Test {
  protected:
   TemporaryModels() {

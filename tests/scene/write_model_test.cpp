@@ -44,13 +44,15 @@ class WriteModel : public TemporaryModels {
     write_model(toy_city_model(), directory_ / name);
     ImportOptions options;
     options.terrain_tile_m = 0;
-    return import_scene({directory_ / name}, options);
+    ImportResult result = import_scene({directory_ / name}, options);
+    result.scene = written_out(result.scene);
+    return result;
   }
 
   /// Bounds in the CRS: the import subtracts an origin.
   static void expect_box(const Scene& scene, const std::string& name, const glm::dvec3& lower,
                          const glm::dvec3& upper) {
-    const Box box = scene.bounds(object_of(scene, name));
+    const Box box = bounds_of(scene, object_of(scene, name));
     for (int axis = 0; axis < 3; ++axis) {
       const double origin = scene.origin[static_cast<size_t>(axis)];
       EXPECT_NEAR(box.lower[axis] + origin, lower[axis], 0.00006) << name << " axis " << axis;
@@ -88,7 +90,7 @@ class WriteModel : public TemporaryModels {
     const std::map<std::string, double> volume{{"first", 540}, {"second", 540}, {"own", 64 * 4.0001}};
     for (const auto& [name, expected] : volume) {
       const Object& object = object_of(scene, name);
-      const glm::dvec3 near(scene.bounds(object).lower);
+      const glm::dvec3 near(bounds_of(scene, object).lower);
       double six_volumes = 0;
       for (uint64_t i = object.triangle_begin; i < object.triangle_end; ++i) {
         const glm::uvec3 t = scene.triangles[i];
