@@ -11,13 +11,39 @@
 
 namespace veduta {
 
-InputFile read_input(const std::filesystem::path& path) {
+namespace {
+
+InputFile named(const std::filesystem::path& path) {
   InputFile file;
   file.name = printable(path.string(), 1000);
   file.stem = printable(path.stem().string());
-  file.extension = path.extension().string();
-  std::transform(file.extension.begin(), file.extension.end(), file.extension.begin(),
+  file.extension = extension_of(path);
+  return file;
+}
+
+Error empty(const InputFile& file) {
+  return bad_input(file.name, "file", "is empty (0 bytes); export the model again");
+}
+
+}  // namespace
+
+std::string extension_of(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+InputFile input_of(const std::filesystem::path& path, std::string_view content) {
+  InputFile file = named(path);
+  if (content.empty()) throw empty(file);
+  file.bytes.reserve(content.size() + InputFile::padding);
+  file.bytes.append(content).append(InputFile::padding, '\0');
+  return file;
+}
+
+InputFile read_input(const std::filesystem::path& path) {
+  InputFile file = named(path);
 
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
@@ -30,7 +56,7 @@ InputFile read_input(const std::filesystem::path& path) {
   if (error || !stream)
     throw bad_input(file.name, "file",
                     std::string("cannot be opened (") + std::strerror(errno) + "); check its rights");
-  if (size == 0) throw bad_input(file.name, "file", "is empty (0 bytes); export the model again");
+  if (size == 0) throw empty(file);
 
   file.bytes.resize(size + InputFile::padding);
   stream.read(file.bytes.data(), static_cast<std::streamsize>(size));

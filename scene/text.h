@@ -25,6 +25,12 @@ struct InputFile {
 /// fails.
 InputFile read_input(const std::filesystem::path& path);
 
+/// The same from bytes that are in memory already. \throw Error(bad_input) when there are none.
+InputFile input_of(const std::filesystem::path& path, std::string_view content);
+
+/// The extension in lower case, with the dot.
+std::string extension_of(const std::filesystem::path& path);
+
 /// `text` on one line: control characters and broken UTF-8 become '?', and more than `max_bytes` are cut with
 /// "...".
 std::string printable(std::string_view text, size_t max_bytes = 120);
