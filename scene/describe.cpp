@@ -41,7 +41,10 @@ std::string extents_text(const Scene& scene, const Box& box) {
 std::string describe(const ImportResult& result) {
   const Scene& scene = result.scene;
   const ImportReport& report = result.report;
-  std::string text = line("format", fmt::format("{}, {}", report.format, size_text(report.bytes_read)));
+  std::string text =
+      line("format", fmt::format("{}, {}{}", report.format,
+                                 report.files > 1 ? fmt::format("{} files, ", report.files) : "",
+                                 size_text(report.bytes_read)));
   text += line("CRS", scene.crs.empty() ? "not stated" : scene.crs);
   text += line("objects", objects_text(report, scene.objects.size()));
   text += line("parts", std::to_string(report.parts));
@@ -54,6 +57,7 @@ std::string describe(const ImportResult& result) {
   if (report.skirt_triangles > 0)
     text += line("added", fmt::format("{} triangles that close the earth below open edges of the terrain",
                                       report.skirt_triangles));
+  for (const std::string& added : report.added) text += line("added", added);
   if (report.dropped.empty()) text += line("dropped", "nothing");
   for (const auto& [reason, dropped] : report.dropped)
     text += line("dropped", fmt::format("{} x {}; first: {}", dropped.count, reason, dropped.first_place));

@@ -37,12 +37,14 @@ struct ImportOptions {
 /// What an import found and dropped. Nothing is dropped silently.
 struct ImportReport {
   std::string format;  ///< "CityJSON 1.1", "CityJSONSeq 2.0", "OBJ"
+  uint64_t files = 0;  ///< models; what these refer to is counted in bytes_read alone
   uint64_t bytes_read = 0;
   std::map<std::string, uint64_t> objects_by_kind;
   uint64_t parts = 0;
   uint64_t instances = 0;  ///< objects that share a mesh with others
   uint64_t polygons = 0, polygons_with_holes = 0;
-  uint64_t skirt_triangles = 0;  ///< added: walls below the open edges of terrain (terrain_skirt.h)
+  uint64_t skirt_triangles = 0;    ///< added: walls below the open edges of terrain (terrain_skirt.h)
+  std::vector<std::string> added;  ///< what else the files do not hold ("ground of 12 triangles ...")
   /// Reason ("degenerate polygon", "duplicate triangle", "polygon that cannot be triangulated", "LoD 1 beside
   /// LoD 2", "unsupported geometry MultiPoint", ...) and how many, with the place of the first one of each
   /// reason.
@@ -58,11 +60,12 @@ struct ImportResult {
   ImportReport report;
 };
 
-/// Reads one or more model files into one scene. The reader is chosen by content, then by extension:
-/// CityJSON 1.0, 1.1, 2.0 (.json), CityJSONSeq (.jsonl), Wavefront OBJ (.obj). The scene origin is the centre
-/// of the models' horizontal extent and their lowest z, rounded to whole metres. Deterministic: the same
-/// files give the same bytes. \throw Error(bad_input) for a file that cannot be used (missing, truncated, a
-/// NaN or infinite coordinate, an index out
+/// Reads one or more models into one scene. A model is a file, a folder or an archive (scene/model_files.h);
+/// the files of the last two are read in the order of their names. The reader of a file is chosen by content,
+/// then by extension: CityJSON 1.0, 1.1, 2.0 (.json), CityJSONSeq (.jsonl), Wavefront OBJ (.obj). The scene
+/// origin is the centre of the models' horizontal extent and their lowest z, rounded to whole metres.
+/// Deterministic: the same files give the same bytes, with any number of threads. \throw Error(bad_input) for
+/// a file that cannot be used (missing, truncated, a NaN or infinite coordinate, an index out
 ///   of range, no triangle at all): "FILE: PLACE: what; what to do".
 ImportResult import_scene(const std::vector<std::filesystem::path>& files, const ImportOptions& options = {});
 

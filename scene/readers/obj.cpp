@@ -193,6 +193,7 @@ class ObjReader {
       object.patches.push_back(
           {part ? group_names_[run.group - 1] : "", file_.name, run.polygon_begin, run.polygon_end});
     }
+    model_.has_objects = !object_names_.empty() || !group_names_.empty();
     if (model_.objects.front().patches.empty()) model_.objects.erase(model_.objects.begin());
   }
 

@@ -26,7 +26,7 @@ class BadInput : public TemporaryModels {
 
 TEST_F(BadInput, Files) {
   expect_refused(directory_ / "missing.json", "file: does not exist");
-  expect_refused(directory_, "file: is not a regular file");
+  expect_refused(directory_, "folder: none of its 0 files is a model");
   expect_refused(write("empty.obj", ""), "file: is empty");
   ASSERT_EQ(mkfifo((directory_ / "pipe.obj").c_str(), 0600), 0);
   expect_refused(directory_ / "pipe.obj", "file: is not a regular file");
@@ -96,7 +96,7 @@ TEST_F(BadInput, CityJson) {
       {with("[0.001,0.001,0.001]", "[1e308,1,1]"), "vertices/1: is not finite"},
       {with("[0.001,0.001,0.001]", "[1,1]"), "transform/scale: is not an array of 3 numbers"},
       {with("\"2.0\"", "\"0.9\""), "version: CityJSON 0.9 is not read"},
-      {with("\"CityJSON\"", "\"FeatureCollection\""), "type: is 'FeatureCollection'"},
+      {with("\"CityJSON\"", "\"CityJSONFeature\""), "type: is CityJSONFeature before"},
       {with("\"vertices\"", "\"corners\""), "vertices: is missing"},
       {with("\"CityObjects\"", "\"Objects\""), "CityObjects: is missing"},
       {with("\"type\":\"Building\"", "\"kind\":\"Building\""), "CityObjects/a/type: is missing"},

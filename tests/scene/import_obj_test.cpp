@@ -30,7 +30,7 @@ TEST_F(ImportObj, ObjectsGroupsAndParts) {
   EXPECT_EQ(result.report.format, "OBJ");
 }
 
-TEST_F(ImportObj, GroupsAloneAreObjectsAndNeitherIsOneObject) {
+TEST_F(ImportObj, GroupsAloneAreObjectsAndWithoutThemComponentsAre) {
   const Scene groups =
       import("a.obj", two_squares + "g one\nf 1 2 3\ng two\nf 5 6 7\ng one\nf 1 3 4\n").scene;
   ASSERT_EQ(groups.objects.size(), 2u);
@@ -39,8 +39,12 @@ TEST_F(ImportObj, GroupsAloneAreObjectsAndNeitherIsOneObject) {
   EXPECT_EQ(groups.objects[1].name, "two");
   EXPECT_TRUE(groups.parts.empty());
   const Scene plain = import("chapel.obj", two_squares + "f 1 2 3\nf 5 6 7\n").scene;
-  ASSERT_EQ(plain.objects.size(), 1u);
-  EXPECT_EQ(plain.objects[0].name, "chapel");
+  ASSERT_EQ(plain.objects.size(), 2u);
+  EXPECT_EQ(plain.objects[0].name, "chapel/1");
+  EXPECT_EQ(plain.objects[1].name, "chapel/2");
+  const Scene connected = import("chapel.obj", two_squares + "f 1 2 3\nf 5 6 7\nf 1 2 6 5\n").scene;
+  ASSERT_EQ(connected.objects.size(), 1u);
+  EXPECT_EQ(connected.objects[0].name, "chapel");
 }
 
 TEST_F(ImportObj, WhatExportersWrite) {
