@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/readers/city_types.h"
 #include "scene/readers/cityjson_objects.h"
 #include "scene/text.h"
 
@@ -64,8 +65,10 @@ class DocumentReader {
       size_t& target = model_object[objects_[i].root];
       if (target == none) {
         target = model_.objects.size();
-        model_.objects.push_back(
-            {printable(root.id, 10000), kind_of(root.type), model_.file + ": " + line_ + place_of(root), {}});
+        model_.objects.push_back({printable(root.id, 10000),
+                                  kind_of_type(root.type),
+                                  model_.file + ": " + line_ + place_of(root),
+                                  {}});
       }
       if (members[objects_[i].root] > 1 || !add_instance(objects_[i], model_.objects[target]))
         add_geometries(objects_[i], model_.objects[target], objects_[i].root == i ? best_of_parts[i] : -1);

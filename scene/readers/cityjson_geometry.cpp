@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/readers/city_types.h"
 #include "scene/text.h"
 
 namespace veduta::cityjson {
@@ -10,23 +11,6 @@ namespace {
 
 using Array = simdjson::dom::array;
 using std::string_view;
-
-struct Semantic {
-  Material material = Material::unknown;
-  bool opening = false;
-};
-
-Semantic semantic_of(string_view type) {
-  if (type == "ClosureSurface") return {Material::unknown, true};
-  if (type == "WallSurface" || type == "InteriorWallSurface" || type == "Door" || type == "Window")
-    return {Material::wall, false};
-  if (type == "RoofSurface" || type == "OuterFloorSurface") return {Material::roof, false};
-  if (type == "GroundSurface") return {Material::ground, false};
-  if (type == "TrafficArea" || type == "AuxiliaryTrafficArea" || type == "TransportationMarking")
-    return {Material::road, false};
-  if (type.starts_with("Water")) return {Material::water, false};
-  return {};
-}
 
 class Boundaries {
  public:
@@ -49,7 +33,7 @@ class Boundaries {
     for (const Element surface : surfaces) {
       string_view type;
       if (surface["type"].get(type) != simdjson::SUCCESS) type = "";
-      semantics_.push_back(semantic_of(type));
+      semantics_.push_back(theme_of_surface(type));
     }
   }
 
@@ -78,7 +62,7 @@ class Boundaries {
   }
 
   void surface(const Array& rings, const Element* value) {
-    Semantic semantic;
+    SurfaceTheme semantic;
     if (value != nullptr && !value->is_null()) {
       uint64_t index = 0;
       if (value->get(index) == simdjson::SUCCESS && index < semantics_.size())
@@ -144,7 +128,7 @@ class Boundaries {
   VertexSource& vertices_;
   RawModel& model_;
   ImportReport& report_;
-  std::vector<Semantic> semantics_;
+  std::vector<SurfaceTheme> semantics_;
   std::vector<uint32_t> path_;
   bool has_values_ = false;
 };

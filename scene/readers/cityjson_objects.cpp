@@ -88,16 +88,6 @@ std::vector<CityObject> read_objects(const Element& document, const std::string&
   return ObjectReader(file, line, report).read(document);
 }
 
-Kind kind_of(string_view type) {
-  if (type.starts_with("Building")) return Kind::building;
-  if (type.starts_with("Bridge")) return Kind::bridge;
-  if (type == "TINRelief") return Kind::terrain;
-  if (type == "Road" || type == "Railway" || type == "TransportSquare") return Kind::road;
-  if (type == "WaterBody" || type == "Waterway") return Kind::water;
-  if (type == "PlantCover" || type == "SolitaryVegetationObject") return Kind::vegetation;
-  return Kind::other;
-}
-
 std::string place_of(const CityObject& object) {
   return "CityObjects/" + printable(object.id);
 }

@@ -21,8 +21,6 @@ struct CityObject {
 std::vector<CityObject> read_objects(const Element& document, const std::string& file,
                                      const std::string& line, ImportReport& report);
 
-Kind kind_of(std::string_view type);
-
 /// "CityObjects/ID"
 std::string place_of(const CityObject& object);
 

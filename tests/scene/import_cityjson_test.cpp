@@ -157,6 +157,20 @@ TEST_F(ImportCityJson, SemanticsAreMaterials) {
   EXPECT_EQ(result.report.dropped.at("ClosureSurface, which stands for an opening").count, 1u);
 }
 
+TEST_F(ImportCityJson, WindowsAndDoorsAreTheirOwnMaterials) {
+  const std::string semantics =
+      R"(,"semantics":{"surfaces":[{"type":"Window"},{"type":"Door"},{"type":"WallSurface"}],)"
+      R"("values":[2,2,0,1,2,2]})";
+  const Scene scene =
+      import("openings.json",
+             cityjson(object("a", "Building", geometry("MultiSurface", cube_faces, "\"3\"", semantics)),
+                      cube_vertices))
+          .scene;
+  EXPECT_EQ(count(scene, Material::window), 2u);
+  EXPECT_EQ(count(scene, Material::door), 2u);
+  EXPECT_EQ(count(scene, Material::wall), 8u);
+}
+
 TEST_F(ImportCityJson, SemanticsThatDoNotFitAreReportedAndNotFatal) {
   for (const char* values : {"[[9,9,9,9,9,9]]", "[[0]]", "7", "[0,1]", "null", "[[[0]]]"}) {
     const std::string semantics =
