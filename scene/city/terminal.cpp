@@ -1,0 +1,235 @@
+#include "scene/city/terminal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <set>
+
+#include "scene/import.h"
+#include "scene/readers/obj.h"
+#include "scene/triangulate.h"
+
+namespace veduta::city {
+namespace {
+
+constexpr double snap = 1e-6;  // coordinates this near to a border lie on it
+constexpr size_t most_faces = 20000;
+constexpr int samples = 37;  // rays along an axis: this many squared
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+RawModel read_model(const std::filesystem::path& path) {
+  const InputFile file = read_input(path);
+  ImportReport report;
+  RawModel model;
+  if (file.extension == ".obj") {
+    model = read_obj(file, report);
+  } else {
+    throw bad_input(file.name, "file", "is not a terminal shape that can be read; give an OBJ or DXF file");
+  }
+  for (const auto& [reason, dropped] : report.dropped)
+    throw Error(ExitStatus::bad_input,
+                dropped.first_place + ": " + reason + "; a terminal may hold surfaces only: remove it");
+  if (model.polygons.empty())
+    throw bad_input(file.name, "whole file", "holds no surface; export the shape again");
+  if (model.polygons.size() > most_faces)
+    throw bad_input(file.name, "whole file",
+                    fmt::format("{} faces; a terminal of more than {} makes no city: simplify it",
+                                model.polygons.size(), most_faces));
+  return model;
+}
+
+// The faces of a model with equal vertices merged.
+class Builder {
+ public:
+  Builder(const std::string& name, const RawModel& model) : model_(model) { terminal.name = name; }
+
+  void add_polygon(uint64_t polygon, uint16_t layer) {
+    const uint64_t ring_begin = model_.rings_before(polygon), ring_end = model_.polygons[polygon].ring_end;
+    const uint64_t first = model_.corners_before(ring_begin);
+    std::vector<uint64_t> ends;
+    std::vector<glm::dvec3> points;
+    for (uint64_t ring = ring_begin; ring < ring_end; ++ring) ends.push_back(model_.ring_end[ring] - first);
+    for (uint64_t i = first; i < model_.corners_before(ring_end); ++i)
+      points.push_back(snapped(model_.vertices[model_.ring_vertex[i]]));
+    if (ends.size() == 1 && points.size() == 4 && is_flat_and_convex(points)) {
+      add_face({index_of(points[0]), index_of(points[1]), index_of(points[2]), index_of(points[3])}, layer);
+      return;
+    }
+    std::vector<std::array<uint32_t, 3>> triangles;
+    if (triangulate(points, ends, triangles) != Triangulation::done)
+      throw bad_input(model_.file, place_of(polygon), "a face without area; remove it");
+    for (const auto& t : triangles)
+      add_face(
+          {index_of(points[t[0]]), index_of(points[t[1]]), index_of(points[t[2]]), index_of(points[t[2]])},
+          layer);
+  }
+
+  // Where a face ends at the unit square's border away from z = 0, a strip of wall leads there.
+  void add_reveals(uint16_t wall_layer) {
+    std::set<std::pair<uint32_t, uint32_t>> edges;
+    for (const Face& face : terminal.faces)
+      for_each_edge(face, [&](uint32_t a, uint32_t b) { edges.emplace(a, b); });
+    for (const auto& [a, b] : edges) {
+      if (edges.contains({b, a}) || !on_one_side(a, b)) continue;
+      const glm::dvec3 pa = terminal.vertices[a], pb = terminal.vertices[b];
+      if (pa.z == 0 && pb.z == 0) continue;
+      const uint32_t wall_a = index_of({pa.x, pa.y, 0}), wall_b = index_of({pb.x, pb.y, 0});
+      const std::array<uint32_t, 4> corners{b, a, wall_a, wall_b};
+      if (pa.z == 0) {
+        add_face({b, a, wall_b, wall_b}, wall_layer);
+      } else if (pb.z == 0) {
+        add_face({b, a, wall_a, wall_a}, wall_layer);
+      } else if (pa.z * pb.z > 0) {
+        add_face(corners, wall_layer);
+      } else {
+        throw bad_input(model_.file, "border", "an edge that passes through the wall; let it end at z = 0");
+      }
+    }
+  }
+
+  Terminal terminal;
+
+ private:
+  template <typename Visit>
+  static void for_each_edge(const Face& face, const Visit& visit) {
+    const size_t corners = face.is_quad() ? 4 : 3;
+    for (size_t i = 0; i < corners; ++i) visit(face.corner[i], face.corner[(i + 1) % corners]);
+  }
+  bool on_one_side(uint32_t a, uint32_t b) const {
+    const glm::dvec3 p = terminal.vertices[a], q = terminal.vertices[b];
+    return (p.x == q.x && (p.x == 0 || p.x == 1) && p.y != q.y) ||
+           (p.y == q.y && (p.y == 0 || p.y == 1) && p.x != q.x);
+  }
+  static glm::dvec3 snapped(glm::dvec3 p) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::abs(p[axis]) < snap) p[axis] = 0;
+      if (axis < 2 && std::abs(p[axis] - 1) < snap) p[axis] = 1;
+    }
+    return p;
+  }
+  static bool is_flat_and_convex(const std::vector<glm::dvec3>& p) {
+    const glm::dvec3 normal = glm::cross(p[2] - p[0], p[3] - p[1]);
+    const double size = glm::length(normal);
+    if (!(size > 0)) return false;
+    for (size_t i = 0; i < 4; ++i) {
+      const glm::dvec3 turn = glm::cross(p[(i + 1) % 4] - p[i], p[(i + 2) % 4] - p[(i + 1) % 4]);
+      if (!(glm::dot(turn, normal) > 1e-9 * size * size)) return false;
+    }
+    return std::abs(glm::dot(p[1] - p[0], normal)) < 1e-9 * size;
+  }
+  uint32_t index_of(const glm::dvec3& p) {
+    const auto [known, added] =
+        index_.try_emplace({p.x, p.y, p.z}, static_cast<uint32_t>(terminal.vertices.size()));
+    if (added) {
+      terminal.vertices.push_back(p);
+      terminal.at_border.push_back(p.x <= 0 || p.x >= 1 || p.y <= 0 || p.y >= 1);
+    }
+    return known->second;
+  }
+  void add_face(const std::array<uint32_t, 4>& corner, uint16_t layer) {
+    terminal.faces.push_back({corner, layer});
+  }
+  std::string place_of(uint64_t polygon) const {
+    return model_.polygons[polygon].line > 0 ? fmt::format("line {}", model_.polygons[polygon].line)
+                                             : fmt::format("face {}", polygon + 1);
+  }
+
+  const RawModel& model_;
+  std::map<std::array<double, 3>, uint32_t> index_;
+};
+
+// How often a line along `axis` through the point (p, q) of the other two axes passes faces from behind, less
+// how often from the front.
+int crossings(const Terminal& terminal, int axis, double p, double q) {
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  int sum = 0;
+  const auto side = [&](const glm::dvec3& a, const glm::dvec3& b) {
+    return (b[u] - a[u]) * (q - a[v]) - (b[v] - a[v]) * (p - a[u]);
+  };
+  const auto triangle = [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const double x = side(a, b), y = side(b, c), z = side(c, a);
+    if (x > 0 && y > 0 && z > 0) ++sum;
+    if (x < 0 && y < 0 && z < 0) --sum;
+  };
+  for (const Face& face : terminal.faces) {
+    const glm::dvec3 &a = terminal.vertices[face.corner[0]], &c = terminal.vertices[face.corner[2]];
+    triangle(a, terminal.vertices[face.corner[1]], c);
+    if (face.is_quad()) triangle(a, c, terminal.vertices[face.corner[3]]);
+  }
+  return sum;
+}
+
+// A closed wall with solid things before it passes every line along z once in all, and every other line as
+// often in as out. Anything else is a hole, a face inside out, or a sheet without thickness.
+void check_closed(const Terminal& terminal, const std::string& file) {
+  glm::dvec3 low(0, 0, -1e-3), high(1, 1, 1e-3);
+  for (const glm::dvec3& p : terminal.vertices) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  if (low.x < -2 || low.y < -2 || high.x > 3 || high.y > 3 || low.z < -5 || high.z > 5)
+    throw bad_input(file, "vertices",
+                    "reach far out of the unit square; scale the shape to x, y from 0 to 1");
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < samples; ++i)
+      for (int j = 0; j < samples; ++j) {
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        // Off the round numbers that corners are at.
+        const double p = low[u] + (high[u] - low[u]) * (i + 0.4142135) / samples;
+        const double q = low[v] + (high[v] - low[v]) * (j + 0.7320508) / samples;
+        const bool in_square = axis == 2 && p > 0 && p < 1 && q > 0 && q < 1;
+        const int expected = in_square ? 1 : 0, found = crossings(terminal, axis, p, q);
+        if (found == expected) continue;
+        const char* names = "xyz";
+        throw bad_input(
+            file, fmt::format("{} = {:.3f}, {} = {:.3f}", names[u], p, names[v], q),
+            fmt::format(
+                "{} faces too {} along {}; close the shape over the unit square, turn all faces outwards "
+                "(counter-clockwise) and give thin parts two sides",
+                std::abs(found - expected), found < expected ? "few" : "many", names[axis]));
+      }
+}
+
+}  // namespace
+
+uint16_t layer_index(std::vector<std::string>& layers, const std::string& name) {
+  const auto known = std::find(layers.begin(), layers.end(), name);
+  if (known != layers.end()) return static_cast<uint16_t>(known - layers.begin());
+  if (layers.size() >= 10000) throw bad_input(name, "layer", "is one of more than 10000; use fewer");
+  layers.push_back(name);
+  return static_cast<uint16_t>(layers.size() - 1);
+}
+
+Terminal plain_terminal(const std::string& name, uint16_t layer) {
+  return {
+      name, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {true, true, true, true}, {{{0, 1, 2, 3}, layer}}};
+}
+
+Terminal load_terminal(const std::string& name, const std::filesystem::path& path,
+                       const std::string& wall_layer, const std::string& only_layer,
+                       std::vector<std::string>& layers) {
+  const RawModel model = read_model(path);
+  Builder builder(name, model);
+  for (const RawObject& object : model.objects)
+    for (const RawPatch& patch : object.patches) {
+      std::string layer = lower(patch.part.empty() ? object.name : patch.part);
+      if (layer == "wall") layer = wall_layer;
+      if (!only_layer.empty()) layer = only_layer;
+      const uint16_t index = layer_index(layers, layer);
+      for (uint64_t i = patch.polygon_begin; i < patch.polygon_end; ++i) builder.add_polygon(i, index);
+    }
+  builder.add_reveals(layer_index(layers, wall_layer));
+  check_closed(builder.terminal, model.file);
+  return std::move(builder.terminal);
+}
+
+}  // namespace veduta::city
