@@ -1,0 +1,119 @@
+// Derived buildings: closed, the right way round, the same every time.
+#include "scene/city/derive.h"
+
+#include <map>
+#include <set>
+
+#include "city_files.h"
+#include "closed_mesh.h"
+
+namespace veduta::city {
+namespace {
+
+using Rings = std::vector<std::vector<glm::dvec2>>;
+
+const std::map<std::string, Rings> outlines = {
+    {"rectangle", {{{-10, -6}, {10, -6}, {10, 6}, {-10, 6}}}},
+    {"square", {{{-6, -6}, {6, -6}, {6, 6}, {-6, 6}}}},
+    {"turned", {{{0, -8}, {9, 1}, {2, 8}, {-7, -1}}}},
+    {"triangle", {{{0, 0}, {18, 0}, {5, 14}}}},
+    {"L", {{{0, 0}, {22, 0}, {22, 10}, {9, 10}, {9, 24}, {0, 24}}}},
+    {"T", {{{0, 0}, {24, 0}, {24, 8}, {16, 8}, {16, 20}, {7, 20}, {7, 8}, {0, 8}}}},
+    {"U", {{{0, 0}, {30, 0}, {30, 25}, {20, 25}, {20, 10}, {10, 10}, {10, 25}, {0, 25}}}},
+    {"courtyard", {{{0, 0}, {40, 0}, {40, 30}, {0, 30}}, {{12, 10}, {12, 20}, {28, 20}, {28, 10}}}},
+    {"irregular", {{{0, 0}, {13, -2}, {20, 5}, {17, 14}, {8, 11}, {-1, 16}, {-4, 6}}}},
+    {"short edges", {{{0, 0}, {18, 0}, {18.3, 0.2}, {20, 2}, {20, 15}, {12, 15.001}, {11.99, 15}, {0, 15}}}},
+    {"thin", {{{0, 0}, {20, 0}, {20, 0.4}, {0, 0.4}}}},
+    {"straight on", {{{0, 0}, {6, 0}, {12, 0}, {12, 8}, {6, 8}, {0, 8}}}},
+};
+
+BuildingPlan plan(const Rings& rings, int floors = 4, uint64_t seed = 1) {
+  BuildingPlan plan;
+  plan.rings = rings;
+  plan.floors = floors;
+  plan.seed = seed;
+  return plan;
+}
+
+class CityDerive : public CityFiles {
+ protected:
+  const std::string windows_ = figure_terminals + R"(
+    <Floor><F><Random minWidth="2"><Face/></Random></F></Floor>
+    <Face><W><Fixed><xProportions x1="1" x2="1m" x3="1"/><yProportions y1="1m" y2="1m" y3="1"/><Elements>
+      <Wall/><Wall/><Wall/><Wall/><Window/><Wall/><Wall/><Wall/><Wall/></Elements></Fixed></W></Face>)";
+};
+
+double area_m2(const Mesh& mesh) {
+  double area = 0;
+  for (const Face& face : mesh.faces) {
+    const glm::dvec3 &a = mesh.vertices[face.corner[0]], &b = mesh.vertices[face.corner[1]],
+                     &c = mesh.vertices[face.corner[2]], &d = mesh.vertices[face.corner[3]];
+    area += 0.5 * glm::length(glm::cross(c - a, d - b));
+  }
+  return area;
+}
+
+TEST_F(CityDerive, BoxOfPlainWalls) {
+  const RuleSet rules = load("<Floor><F><Wall/></F></Floor>");
+  const Mesh mesh = derive_building(plan(outlines.at("rectangle"), 2), rules);
+  EXPECT_EQ(mesh.vertices.size(), 12u);
+  EXPECT_EQ(mesh.triangle_count(), 2u * (4 * 2 + 2));
+  EXPECT_DOUBLE_EQ(area_m2(mesh), 2 * 20 * 12 + 6 * 64);
+  std::set<std::pair<double, double>> corners;
+  for (const glm::dvec3& p : mesh.vertices) {
+    corners.emplace(p.x, p.y);
+    EXPECT_TRUE(p.z == 0 || p.z == 3 || p.z == 6);
+  }
+  EXPECT_EQ(corners, (std::set<std::pair<double, double>>{{-10, -6}, {10, -6}, {10, 6}, {-10, 6}}));
+}
+
+// Every outline under every roof is closed, with courses, eaves, parapets and windows.
+TEST_F(CityDerive, BuildingsAreClosed) {
+  for (const std::string roof :
+       {"<Roof/>", "<Roof parapet=\"1\"/>", "<Roof type=\"gabled\" overhang=\"0.5\"/>",
+        "<Roof type=\"gabled\"/>", "<Roof type=\"hipped\" overhang=\"0.5\"/>",
+        "<Roof type=\"mansard\" height=\"2\" overhang=\"0.3\"/>"}) {
+    const RuleSet rules =
+        load(roof + "<Course depth=\"0.2\"/><Course floor=\"ground\" place=\"bottom\"/>" + windows_);
+    for (const auto& [name, rings] : outlines)
+      for (const bool with_neighbours : {false, true}) {
+        BuildingPlan building = plan(rings);
+        if (with_neighbours) building.blind_m = {{0, 20, 0, 7}};
+        const Mesh mesh = derive_building(building, rules);
+        const Crossings crossings = cross(mesh, 400);
+        EXPECT_GT(crossings.lines, 100);
+        EXPECT_EQ(crossings.open, 0) << name << roof << crossings.first;
+        EXPECT_EQ(crossings.inside_out, 0) << name << roof << crossings.first;
+        for (const Face& face : mesh.faces) {
+          const glm::dvec3 &a = mesh.vertices[face.corner[0]], &b = mesh.vertices[face.corner[1]],
+                           &c = mesh.vertices[face.corner[2]], &d = mesh.vertices[face.corner[3]];
+          EXPECT_GT(glm::length(glm::cross(c - a, d - b)), 0) << name << roof;
+        }
+      }
+  }
+}
+
+TEST_F(CityDerive, SameSeedSameMesh) {
+  const RuleSet rules = load(windows_);
+  const auto mesh = [&](uint64_t seed) { return derive_building(plan(outlines.at("L"), 4, seed), rules); };
+  const Mesh a = mesh(1), b = mesh(1), c = mesh(2);
+  EXPECT_EQ(a.vertices, b.vertices);
+  EXPECT_NE(a.vertices, c.vertices);
+}
+
+TEST_F(CityDerive, RuleThatOnlyShrinksForEver) {
+  const RuleSet rules =
+      load(R"(<Floor><F><Fixed><xProportions x1="1000" x2="1"/><yProportions y1="1000" y2="1"/>
+      <Elements><Floor/><Floor/><Floor/><Floor/></Elements></Fixed></F></Floor>)");
+  try {
+    derive_building(plan(outlines.at("rectangle")), rules);
+    ADD_FAILURE() << "ended";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::bad_input);
+    EXPECT_NE(std::string(error.what()).find("rule 'F' of shape 'Floor': never ends"), std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace veduta::city
