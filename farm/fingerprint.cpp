@@ -9,12 +9,22 @@
 #include <sstream>
 
 #include "scene/error.h"
+#include "scene/model_files.h"
 
 namespace veduta {
 namespace {
 
 std::string hex(XXH128_hash_t hash) {
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+/// Of a model that is one file alone the hash of that file; else of every file of it, with their names.
+std::string hash_model(const std::string& model) {
+  const auto files = files_of(model);
+  if (files.size() == 1 && files[0].first.empty()) return hash_file(files[0].second);
+  std::string all;
+  for (const auto& [name, path] : files) all += name + '\0' + hash_file(path) + '\n';
+  return hex(XXH3_128bits(all.data(), all.size()));
 }
 
 }  // namespace
@@ -47,7 +57,8 @@ Fingerprint make_fingerprint(const Settings& settings) {
   Fingerprint made;
   made.parts.emplace_back("algorithm version", std::to_string(algorithm_version));
   for (size_t i = 0; i < settings.scene.model.size(); ++i)
-    made.parts.emplace_back(fmt::format("scene.model {} content", i + 1), hash_file(settings.scene.model[i]));
+    made.parts.emplace_back(fmt::format("scene.model {} content", i + 1),
+                            hash_model(settings.scene.model[i]));
   for (auto& part : list_settings(settings))
     if (part.first != "scene.model") made.parts.push_back(std::move(part));
   std::string all;

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "scene/import.h"
 
 namespace veduta {
@@ -47,6 +49,8 @@ std::string describe(const ImportResult& result) {
                                  size_text(report.bytes_read)));
   text += line("CRS", scene.crs.empty() ? "not stated" : scene.crs);
   text += line("objects", objects_text(report, scene.objects.size()));
+  if (report.instances > 0)
+    text += line("instances", fmt::format("{} of {} meshes", report.instances, scene.meshes.size()));
   text += line("parts", std::to_string(report.parts));
   text += line("polygons", fmt::format("{}, {} with holes", report.polygons, report.polygons_with_holes));
   text += line("triangles", std::to_string(scene.triangle_count()));
@@ -62,6 +66,36 @@ std::string describe(const ImportResult& result) {
   for (const auto& [reason, dropped] : report.dropped)
     text += line("dropped", fmt::format("{} x {}; first: {}", dropped.count, reason, dropped.first_place));
   return text;
+}
+
+std::string describe_json(const ImportResult& result) {
+  const Scene& scene = result.scene;
+  const ImportReport& report = result.report;
+  const Box box = scene.bounds();
+  nlohmann::ordered_json json = {{"format", report.format},
+                                 {"files", report.files},
+                                 {"bytes", report.bytes_read},
+                                 {"crs", scene.crs},
+                                 {"objects", report.objects_by_kind},
+                                 {"instances", report.instances},
+                                 {"parts", report.parts},
+                                 {"polygons", report.polygons},
+                                 {"triangles", scene.triangle_count()},
+                                 {"vertices", scene.vertices.size()}};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double origin = scene.origin[static_cast<size_t>(axis)];
+    json["lower"].push_back(origin + static_cast<double>(box.lower[axis]));
+    json["upper"].push_back(origin + static_cast<double>(box.upper[axis]));
+  }
+  json["origin"] = scene.origin;
+  json["added"] = report.added;
+  if (report.skirt_triangles > 0)
+    json["added"].push_back(fmt::format("{} triangles of earth below open edges", report.skirt_triangles));
+  json["dropped"] = nlohmann::ordered_json::array();
+  for (const auto& [reason, dropped] : report.dropped)
+    json["dropped"].push_back(
+        {{"reason", reason}, {"count", dropped.count}, {"first_place", dropped.first_place}});
+  return json.dump(2);
 }
 
 }  // namespace veduta

@@ -72,4 +72,9 @@ ImportResult import_scene(const std::vector<std::filesystem::path>& files, const
 /// The report as people read it (`veduta import MODEL --info`): several lines, numbers with units.
 std::string describe(const ImportResult& result);
 
+/// The same as a JSON object: "format", "files", "bytes", "crs", "objects" (by kind), "instances", "parts",
+/// "polygons", "triangles", "vertices", "lower" and "upper" (m, in the CRS), "origin", "added",
+/// "dropped" (an array of "reason", "count", "first_place").
+std::string describe_json(const ImportResult& result);
+
 }  // namespace veduta

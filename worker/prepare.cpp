@@ -17,6 +17,18 @@ namespace {
 constexpr int stages = 6;
 constexpr double ground_step_m = 1.0;
 
+ImportOptions import_options(const Settings& settings) {
+  ImportOptions options;
+  options.terrain_tile_m = settings.scene.terrain_tile_m;
+  if (settings.scene.up != "auto") options.up = settings.scene.up == "y" ? UpAxis::y : UpAxis::z;
+  options.unit_m = settings.scene.unit_m;
+  options.crs = settings.scene.crs;
+  options.height_field = settings.scene.height_field;
+  options.floors_field = settings.scene.floors_field;
+  options.floor_height_m = settings.scene.floor_height_m;
+  return options;
+}
+
 WalkCells walk_options(const Settings& settings, const Scene& scene) {
   WalkCells options;
   options.size_m = settings.cells.size_m;
@@ -67,8 +79,8 @@ Prepared prepare(const Settings& settings, const StageProgress& progress) {
   City& city = prepared.city;
 
   stage("import");
-  ImportResult imported = import_scene({settings.scene.model.begin(), settings.scene.model.end()},
-                                       {settings.scene.terrain_tile_m});
+  ImportResult imported =
+      import_scene({settings.scene.model.begin(), settings.scene.model.end()}, import_options(settings));
   city.scene = std::move(imported.scene);
   prepared.notes.push_back(fmt::format("{}: {} objects, {} triangles", imported.report.format,
                                        city.scene.objects.size(), city.scene.triangle_count()));

@@ -13,8 +13,15 @@ namespace veduta {
 /// Every setting that changes a result. Lengths in metres.
 struct Settings {
   struct {
-    std::vector<std::string> model;  ///< files; relative ones are relative to the configuration file
-    double terrain_tile_m = 64.0;    ///< terrain is cut into square objects of this edge
+    /// files, folders, archives; relative ones are relative to the configuration file
+    std::vector<std::string> model;
+    double terrain_tile_m = 64.0;  ///< terrain is cut into square objects of this edge
+    // What the files do not say, or say wrongly: see ImportOptions in scene/import.h.
+    std::string up = "auto";  ///< "auto", "y", "z"
+    double unit_m = 0;        ///< metres in a unit of the files; 0: as they say
+    std::string crs;
+    std::string height_field, floors_field;  ///< of footprints
+    double floor_height_m = 3.0;
   } scene;
   struct {
     std::string mode = "walk";   ///< "walk": cells at eye height above ground or terrain

@@ -106,11 +106,25 @@ Key choice(std::string path, std::vector<std::string> choices, std::string help,
           }};
 }
 
+Key text(std::string path, std::string range, std::string help, const TextField& field) {
+  return {std::move(path),
+          "text",
+          std::move(range),
+          std::move(help),
+          [=](Settings& s, const toml::node& node, const Place& place) {
+            field(s) = text_of(node, place, "a text");
+          },
+          [=](const Settings& s) {
+            Settings copy = s;
+            return toml_text(field(copy));
+          }};
+}
+
 Key models() {
   return {"scene.model",
           "text or array of texts",
-          "one file or more",
-          "model files: CityJSON, CityJSONSeq or OBJ; relative to this file",
+          "one model or more",
+          "files, folders or archives of models (docs/importing.md); relative to this file",
           [](Settings& s, const toml::node& node, const Place& place) {
             std::vector<std::string> files;
             const auto add = [&](const toml::node& each) {
@@ -170,6 +184,21 @@ const std::vector<Key>& settings_keys() {
       models(),
       real("scene.terrain_tile", 1, 10000, "m", "terrain is cut into square objects of this edge",
            [](Settings& s) -> double& { return s.scene.terrain_tile_m; }),
+      choice("scene.up", {"auto", "y", "z"}, "axis of the files that points up; auto: as they say, else z",
+             [](Settings& s) -> std::string& { return s.scene.up; }),
+      real("scene.unit", 0, 1e6, "m", "metres in a unit of the files; 0: as they say, else 1",
+           [](Settings& s) -> double& { return s.scene.unit_m; }),
+      text("scene.crs", "a CRS like \"EPSG:28992\", or empty",
+           "of the scene, and of files that state none; empty: that of the first file that states one",
+           [](Settings& s) -> std::string& { return s.scene.crs; }),
+      text("scene.height_field", "the name of an attribute, or empty",
+           "of footprints: their height in m; empty: the usual names are tried",
+           [](Settings& s) -> std::string& { return s.scene.height_field; }),
+      text("scene.floors_field", "the name of an attribute, or empty",
+           "of footprints: their number of floors; empty: the usual names are tried",
+           [](Settings& s) -> std::string& { return s.scene.floors_field; }),
+      real("scene.floor_height", 1, 100, "m", "of a floor, where footprints state floors and no height",
+           [](Settings& s) -> double& { return s.scene.floor_height_m; }),
       choice("navigation.mode", {"walk"}, "walk: cells at eye height above ground or terrain",
              [](Settings& s) -> std::string& { return s.navigation.mode; }),
       real("navigation.seed_size", 0.01, 10, "m",

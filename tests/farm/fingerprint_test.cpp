@@ -33,6 +33,38 @@ TEST_F(FingerprintTest, ContentCountsPathsDoNot) {
   EXPECT_EQ(make_fingerprint(here).hash.size(), 32u);
 }
 
+TEST_F(FingerprintTest, EveryFileOfAModelCounts) {
+  std::filesystem::create_directories(directory / "city/part");
+  model("city/a.obj", "a");
+  model("city/part/b.obj", "b");
+  model("city/plan.shp", "plan");
+  Settings folder, plan;
+  folder.scene.model = {(directory / "city").string()};
+  plan.scene.model = {(directory / "city/plan.shp").string()};
+  const std::string stored = make_fingerprint(folder).text();
+  EXPECT_NO_THROW(require_same_job("out/x", stored, make_fingerprint(folder)));
+  const auto expect_other = [&](const char* what) {
+    try {
+      require_same_job("out/x", stored, make_fingerprint(folder));
+      ADD_FAILURE() << what;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.status(), ExitStatus::other_job);
+      EXPECT_NE(std::string(error.what()).find("'scene.model 1 content'"), std::string::npos);
+    }
+  };
+  model("city/part/b.obj", "changed");
+  expect_other("a changed file");
+  model("city/part/b.obj", "b");
+  EXPECT_EQ(make_fingerprint(folder).text(), stored);
+  std::filesystem::rename(directory / "city/part/b.obj", directory / "city/part/c.obj");
+  expect_other("a renamed file");
+  std::filesystem::rename(directory / "city/part/c.obj", directory / "city/part/b.obj");
+  const std::string of_plan = make_fingerprint(plan).hash;
+  model("city/plan.dbf", "heights");
+  expect_other("one more file");
+  EXPECT_NE(make_fingerprint(plan).hash, of_plan) << "what lies beside a plan counts";
+}
+
 TEST_F(FingerprintTest, EverySettingCountsAndIsNamed) {
   Settings stored;
   stored.scene.model = {model("a.json", "city")};
@@ -43,6 +75,8 @@ TEST_F(FingerprintTest, EverySettingCountsAndIsNamed) {
            {"size = 10.0", "size = 11.0", "cells.size"},
            {"resolution = 512", "resolution = 256", "occlusion.resolution"},
            {"eye_margin = 0.0325", "eye_margin = 0.03", "stereo.eye_margin"},
+           {"up = \"auto\"", "up = \"y\"", "scene.up"},
+           {"crs = \"\"", "crs = \"EPSG:28992\"", "scene.crs"},
            {"region = []", "region = [0, 0, 1, 1]", "cells.region"}}) {
     std::string text = base;
     const size_t at = text.find(from);
@@ -61,7 +95,7 @@ TEST_F(FingerprintTest, EverySettingCountsAndIsNamed) {
 TEST_F(FingerprintTest, MissingModelIsBadInput) {
   Settings settings;
   for (const std::filesystem::path& wrong :
-       {directory / "no.json", directory, directory / std::string(300, 'x')}) {
+       {directory / "no.json", directory / "elsewhere/none", directory / std::string(300, 'x')}) {
     settings.scene.model = {wrong.string()};
     try {
       make_fingerprint(settings);

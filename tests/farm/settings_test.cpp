@@ -33,13 +33,22 @@ TEST(Settings, DefaultsAndRelativeModels) {
 
 TEST(Settings, EveryKeyIsRead) {
   const Settings s = parse(
-      "[scene]\nmodel = ['/x/a.json', 'sub/../b.obj']\nterrain_tile = 32\n[navigation]\nmode = "
+      "[scene]\nmodel = ['/x/a.json', 'sub/../b.obj']\nterrain_tile = 32\nup = 'y'\nunit = 0.001\n"
+      "crs = 'EPSG:3946'\nheight_field = 'H'\nfloors_field = 'F \"n\"'\nfloor_height = "
+      "2.5\n[navigation]\nmode = "
       "'walk'\nseed_size = 0.5\n"
       "eye_height = 2\n[cells]\nsize = 5\nheight = 2.5\nregion = [1, 2.5, 3, 4]\n[slices]\nmax = "
       "4\n[shrink]\nmethod = 'sealed'\n"
       "[occlusion]\nmethod = 'panorama'\nresolution = 256\nsubdivide = 3\n[stereo]\neye_margin = 0\n");
   EXPECT_EQ(s.scene.model, (std::vector<std::string>{"/x/a.json", "/base/b.obj"}));
   EXPECT_EQ(s.scene.terrain_tile_m, 32);
+  EXPECT_EQ(s.scene.up, "y");
+  EXPECT_EQ(s.scene.unit_m, 0.001);
+  EXPECT_EQ(s.scene.crs, "EPSG:3946");
+  EXPECT_EQ(s.scene.height_field, "H");
+  EXPECT_EQ(s.scene.floors_field, "F \"n\"");
+  EXPECT_EQ(s.scene.floor_height_m, 2.5);
+  EXPECT_EQ(to_toml(parse(to_toml(s))), to_toml(s));
   EXPECT_EQ(s.navigation.seed_size_m, 0.5);
   EXPECT_EQ(s.navigation.eye_height_m, 2);
   EXPECT_EQ(s.cells.size_m, 5);
@@ -76,6 +85,12 @@ TEST(Settings, WrongTypesAndRangesNameTheLine) {
         "[cells]\nregion = [0, 0, 1]\n", "[cells]\nregion = [0, 0, 1, nan]\n", "[cells]\nregion = 4\n"})
     EXPECT_NE(refusal(model + wrong).find("demo.toml: line 4: '"), std::string::npos)
         << wrong << refusal(model + wrong);
+}
+
+TEST(Settings, WhatTheFilesDoNotSay) {
+  for (const char* wrong : {"up = 'x'\n", "up = 3\n", "unit = -1\n", "unit = 'mm'\n", "crs = 28992\n",
+                            "height_field = 3\n", "floor_height = 0\n"})
+    EXPECT_NE(refusal(model + wrong).find("demo.toml: line 3: 'scene."), std::string::npos) << wrong;
 }
 
 TEST(Settings, ModelIsRequired) {

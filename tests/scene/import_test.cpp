@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <glm/vec2.hpp>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "scene/error.h"
@@ -125,6 +126,21 @@ TEST_F(Import, TheReportSaysWhatPeopleAskFor) {
   for (const char* part : {"CityJSON 1.1, 3.16 MB", "EPSG:7415", "844 building", "1653", "triangles  42",
                            "added      1040 triangles", " m ", "duplicate triangle; first: "})
     EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
+}
+
+TEST_F(Import, TheReportAsJson) {
+  const ImportResult result = import("a\"b.obj", "v 0 0 0\nv 10 0 0\nv 0 10 5\nf 1 2 3\nf 1 2 3\nl 1 2\n");
+  const auto json = nlohmann::json::parse(describe_json(result));
+  EXPECT_EQ(json["format"], "OBJ");
+  EXPECT_EQ(json["files"], 1);
+  EXPECT_EQ(json["bytes"], result.report.bytes_read);
+  EXPECT_EQ(json["objects"], (nlohmann::json{{"building", 1}}));
+  EXPECT_EQ(json["triangles"], 1);
+  EXPECT_EQ(json["upper"], (nlohmann::json{10.0, 10.0, 5.0}));
+  ASSERT_EQ(json["dropped"].size(), 2u);
+  EXPECT_EQ(json["dropped"][1]["reason"], "duplicate triangle");
+  EXPECT_EQ(json["dropped"][1]["count"], 1);
+  EXPECT_TRUE(json["dropped"][1]["first_place"].get<std::string>().ends_with("a\"b.obj: line 5"));
 }
 
 TEST_F(Import, Rotterdam) {
