@@ -105,6 +105,11 @@ std::vector<RawModel> read_models(const std::vector<std::filesystem::path>& path
   for (Task& task : tasks) {
     merge(task.report, report);
     if (!task.read) continue;
+    const RawModel& model = task.read->model;
+    if (model.ring_vertex.empty() && task.files->form() != ModelFiles::Form::file) {
+      count_dropped(report, "file without surfaces", model.file);
+      continue;
+    }
     models.push_back(std::move(task.read->model));
     if (std::find(formats.begin(), formats.end(), models.back().format) == formats.end())
       formats.push_back(models.back().format);

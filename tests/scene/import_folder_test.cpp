@@ -149,6 +149,35 @@ TEST_F(ImportFolder, FilesLocalToAPlaceOnEarth) {
   expect_refused(directory_ / "tile", "_1.obj: line 1: the origin is not a longitude");
 }
 
+TEST_F(ImportFolder, ATilesetIsOneModelWithItsTiles) {
+  const fs::path tiles = VEDUTA_TEST_DATA "/formats/tiles";
+  const ImportResult folder = import_scene({tiles}), named = import_scene({tiles / "tileset.json"});
+  EXPECT_EQ(folder.report.format, "3D Tiles 1.0");
+  EXPECT_EQ(folder.report.files, 1u);
+  EXPECT_EQ(folder.report.objects_by_kind.at("building"), 6u);
+  EXPECT_GT(folder.report.bytes_read, fs::file_size(tiles / "tileset.json")) << "tiles are counted";
+  EXPECT_EQ(folder.scene.triangles, named.scene.triangles);
+  EXPECT_FALSE(folder.report.dropped.count("tile that no tileset refers to"));
+}
+
+TEST_F(ImportFolder, AModelWithoutSurfacesAmongOthersIsCounted) {
+  put("a.obj", box(0, 0, 0, 10, 10, 8));
+  put("b.obj", "v 0 0 0\n");
+  const ImportResult result = import_scene({directory_});
+  EXPECT_EQ(result.report.files, 1u);
+  EXPECT_EQ(result.report.dropped.at("file without surfaces").count, 1u);
+  expect_refused(directory_ / "b.obj", "b.obj: whole file: holds no surface");
+}
+
+TEST_F(ImportFolder, Lyon) {
+  const fs::path archive = VEDUTA_SHARED_DATA "/lyon_3dtiles/lyon_3dtiles.tar.xz";
+  if (!fs::exists(archive)) GTEST_SKIP() << archive << " is not here";
+  const ImportResult result = import_scene({archive});
+  EXPECT_EQ(result.report.files, 3u) << "buildings, roads and water; of the relief all tiles are missing";
+  EXPECT_EQ(result.report.dropped.at("tile that is missing").count, 17u + 8u);
+  EXPECT_EQ(result.report.objects_by_kind.at("road"), 16520u);
+}
+
 TEST_F(ImportFolder, Linz) {
   const fs::path archive = VEDUTA_SHARED_DATA "/linz/linz_core_8tiles.tar.xz";
   if (!fs::exists(archive)) GTEST_SKIP() << archive << " is not here";
