@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "scene/error.h"
+#include "scene/nearest_word.h"
 #include "worker/settings_keys.h"
 
 namespace veduta {
@@ -20,31 +21,10 @@ std::string leaf(const std::string& path) {
   return path.substr(path.find('.') + 1);
 }
 
-size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<size_t> row(b.size() + 1);
-  for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (size_t i = 1; i <= a.size(); ++i) {
-    size_t diagonal = row[0];
-    row[0] = i;
-    for (size_t j = 1; j <= b.size(); ++j) {
-      const size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0u : 1u)});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
-}
-
-std::string nearest(const std::string& path, const std::set<std::string>& known) {
-  return *std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
-    return edit_distance(path, a) < edit_distance(path, b);
-  });
-}
-
 [[noreturn]] void refuse_unknown(const Place& place, const toml::node& node,
                                  const std::set<std::string>& known) {
-  place.refuse(node,
-               fmt::format("unknown key '{}'; did you mean '{}'?", place.key, nearest(place.key, known)));
+  place.refuse(
+      node, fmt::format("unknown key '{}'; did you mean '{}'?", place.key, nearest_word(place.key, known)));
 }
 
 void apply_section(Settings& settings, const std::string& name_of_section, const toml::table& table,
