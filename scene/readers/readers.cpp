@@ -1,6 +1,7 @@
 #include "scene/readers/readers.h"
 
 #include "scene/model_format.h"
+#include "scene/readers/citygml.h"
 #include "scene/readers/cityjson.h"
 #include "scene/readers/dxf.h"
 #include "scene/readers/gltf.h"
@@ -59,8 +60,7 @@ std::optional<ReadModel> read_model(const ModelFiles& files, const std::string& 
       if (files.form() != ModelFiles::Form::file) return std::nullopt;
       throw bad_input(file.name, "features", "are an index of model files; give the folder that holds them");
     case ModelFormat::citygml:
-      throw bad_input(file.name, "line 1",
-                      "this is XML; convert CityGML to CityJSON (citygml-tools to-cityjson)");
+      return plain(read_citygml(file, report));
     default:
       throw bad_input(file.name, "line 1",
                       "neither CityJSON (.json, .jsonl) nor Wavefront OBJ (.obj); convert it");

@@ -30,7 +30,7 @@ TEST_F(BadInput, Files) {
   expect_refused(write("empty.obj", ""), "file: is empty");
   ASSERT_EQ(mkfifo((directory_ / "pipe.obj").c_str(), 0600), 0);
   expect_refused(directory_ / "pipe.obj", "file: is not a regular file");
-  expect_refused(write("city.gml", "<?xml version=\"1.0\"?>\n<CityModel/>"), "line 1: this is XML");
+  expect_refused(write("city.gml", "<?xml version=\"1.0\"?>\n<CityModel/>"), "line 2: the root is 'CityModel'");
   expect_refused(write("image.png", "\x89PNG\r\n\x1a\n"), "line 1: neither");
   expect_refused(write("blank.txt", " \n\n"), "line 1: neither");
 }
