@@ -1,5 +1,6 @@
 #include "scene/readers/dxf_scan.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -60,6 +61,8 @@ DxfScan scan_dxf(const InputFile& file) {
     } else if (groups.code() == 70 && section == "HEADER" && variable == "$INSUNITS") {
       const int64_t unit = groups.integer();
       scan.insunits = unit < 0 || unit > std::numeric_limits<int>::max() ? -1 : static_cast<int>(unit);
+    } else if ((groups.code() == 70 || groups.code() == 71) && entity == "INSERT") {
+      scan.largest_array = std::max(scan.largest_array, groups.integer());
     } else if (groups.code() == 70 && entity == "POLYLINE" && (groups.integer() & mesh) != 0) {
       scan.surfaces = true;
     } else if (groups.code() == 39 && model_space && entity.ends_with("POLYLINE") && groups.real() != 0) {

@@ -1,6 +1,9 @@
 // What a DXF file is, before it is read in full: its unit, and whether it holds surfaces or only a plan.
 #pragma once
 
+#include <cstdint>
+#include <string>
+
 #include "scene/import.h"
 #include "scene/text.h"
 
@@ -11,7 +14,8 @@ struct DxfScan {
   int insunits = 0;     ///< $INSUNITS; 0: no unit
   bool surfaces =
       false;  ///< 3DFACE or mesh anywhere; SOLID, TRACE or a polyline with thickness in model space
-  bool outlines = false;  ///< polyline or HATCH in model space
+  int64_t largest_array = 1;  ///< rows or columns of an INSERT
+  bool outlines = false;      ///< polyline or HATCH in model space
 };
 
 /// Walks over the whole file once. \throw Error(bad_input) when it is not DXF or cut short
