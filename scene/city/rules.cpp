@@ -27,9 +27,14 @@ struct Situation {
   auto operator<=>(const Situation&) const = default;
 };
 
+bool excludes(const std::string& value) {
+  return value.starts_with('!');
+}
+
+// "a|b" and "!a|b" list a and b.
 std::vector<std::string> alternatives(const std::string& value) {
   std::vector<std::string> words(1);
-  for (const char c : value) {
+  for (const char c : value.substr(excludes(value) ? 1 : 0)) {
     if (c == '|') {
       words.emplace_back();
     } else {
@@ -177,8 +182,19 @@ class Compiler {
             floor.values[1] = number_or_other(rules_.storeys, storey);
             floor.values[2] = number_or_other(rules_.from_top, top);
             floor.values[3] = side;
-            rules_.starts.push_back(state_of(floor, {}));
+            rules_.starts.push_back(is_possible(floor) ? state_of(floor, {}) : 0);
           }
+  }
+
+  // Ground floors, and only they, are storey 0; top floors are 0 from the top, and middle floors are not.
+  bool is_possible(const Situation& floor) const {
+    const bool asks_storey = !rules_.storeys.empty() && rules_.storeys[0] == 0;
+    const bool asks_top = !rules_.from_top.empty() && rules_.from_top[0] == 0;
+    const bool ground = floor.values[0] == "ground", top = floor.values[0] == "top";
+    if (floor.values[1] == "0" ? !ground : ground && (asks_storey || floor.values[1] != "other"))
+      return false;
+    if (floor.values[2] == "0") return ground || top;
+    return !top || (!asks_top && floor.values[2] == "other");
   }
 
   static std::string number_or_other(const std::vector<int>& numbers, size_t i) {
@@ -204,7 +220,8 @@ class Compiler {
     return std::all_of(rule.attributes.begin(), rule.attributes.end(), [&](const auto& wanted) {
       const std::string& value = situation.values[attribute(wanted.first)];
       const std::vector<std::string> words = alternatives(wanted.second);
-      return value.empty() || std::find(words.begin(), words.end(), value) != words.end();
+      const bool listed = std::find(words.begin(), words.end(), value) != words.end();
+      return value.empty() || listed != excludes(wanted.second);
     });
   }
 

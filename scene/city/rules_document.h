@@ -33,7 +33,7 @@ struct WrittenElement {
 
 struct WrittenRule {
   std::string name;
-  Attributes attributes;  ///< a value may list alternatives: "ground|top"
+  Attributes attributes;  ///< a value may list alternatives: "ground|top", "!2|3"
   double weight = 1;
   Split split;
   std::vector<WrittenElement> elements;

@@ -6,10 +6,12 @@
 #include <cctype>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
 #include <map>
 #include <set>
 
 #include "scene/import.h"
+#include "scene/readers/dxf.h"
 #include "scene/readers/obj.h"
 #include "scene/triangulate.h"
 
@@ -32,6 +34,8 @@ RawModel read_model(const std::filesystem::path& path) {
   RawModel model;
   if (file.extension == ".obj") {
     model = read_obj(file, report);
+  } else if (file.extension == ".dxf") {
+    model = read_dxf(file, {}, report);
   } else {
     throw bad_input(file.name, "file", "is not a terminal shape that can be read; give an OBJ or DXF file");
   }
@@ -52,14 +56,14 @@ class Builder {
  public:
   Builder(const std::string& name, const RawModel& model) : model_(model) { terminal.name = name; }
 
-  void add_polygon(uint64_t polygon, uint16_t layer) {
+  void add_polygon(const glm::dmat4x3& placement, uint64_t polygon, uint16_t layer) {
     const uint64_t ring_begin = model_.rings_before(polygon), ring_end = model_.polygons[polygon].ring_end;
     const uint64_t first = model_.corners_before(ring_begin);
     std::vector<uint64_t> ends;
     std::vector<glm::dvec3> points;
     for (uint64_t ring = ring_begin; ring < ring_end; ++ring) ends.push_back(model_.ring_end[ring] - first);
     for (uint64_t i = first; i < model_.corners_before(ring_end); ++i)
-      points.push_back(snapped(model_.vertices[model_.ring_vertex[i]]));
+      points.push_back(snapped(placement * glm::dvec4(model_.vertices[model_.ring_vertex[i]], 1)));
     if (ends.size() == 1 && points.size() == 4 && is_flat_and_convex(points)) {
       add_face({index_of(points[0]), index_of(points[1]), index_of(points[2]), index_of(points[3])}, layer);
       return;
@@ -176,7 +180,7 @@ void check_closed(const Terminal& terminal, const std::string& file) {
     low = glm::min(low, p);
     high = glm::max(high, p);
   }
-  if (low.x < -2 || low.y < -2 || high.x > 3 || high.y > 3 || low.z < -5 || high.z > 5)
+  if (low.x < -2 || low.y < -20 || high.x > 3 || high.y > 20 || low.z < -5 || high.z > 5)
     throw bad_input(file, "vertices",
                     "reach far out of the unit square; scale the shape to x, y from 0 to 1");
   for (int axis = 0; axis < 3; ++axis)
@@ -219,14 +223,18 @@ Terminal load_terminal(const std::string& name, const std::filesystem::path& pat
                        std::vector<std::string>& layers) {
   const RawModel model = read_model(path);
   Builder builder(name, model);
-  for (const RawObject& object : model.objects)
+  for (const RawObject& object : model.objects) {
+    const bool placed = object.placement != RawObject::unplaced;
+    const glm::dmat4x3 placement = placed ? model.placements[object.placement] : glm::dmat4x3(1);
     for (const RawPatch& patch : object.patches) {
       std::string layer = lower(patch.part.empty() ? object.name : patch.part);
       if (layer == "wall") layer = wall_layer;
       if (!only_layer.empty()) layer = only_layer;
       const uint16_t index = layer_index(layers, layer);
-      for (uint64_t i = patch.polygon_begin; i < patch.polygon_end; ++i) builder.add_polygon(i, index);
+      for (uint64_t i = patch.polygon_begin; i < patch.polygon_end; ++i)
+        builder.add_polygon(placement, i, index);
     }
+  }
   builder.add_reveals(layer_index(layers, wall_layer));
   check_closed(builder.terminal, model.file);
   return std::move(builder.terminal);
