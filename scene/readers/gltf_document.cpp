@@ -155,7 +155,6 @@ class Loader {
     const std::optional<InputFile> file = loader.find_(uri);
     if (!file)
       throw bad_input(loader.name_, "buffers", printable(uri) + " is missing; put it beside the model");
-    loader.report_.bytes_read += file->content().size();
     if (file->content().size() < size)
       throw bad_input(file->name, "file",
                       "has " + std::to_string(file->content().size()) + " bytes, and " + loader.name_ +

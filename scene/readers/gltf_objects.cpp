@@ -2,7 +2,6 @@
 
 #include <tiny_gltf.h>
 
-#include <glm/matrix.hpp>
 #include <map>
 
 #include "scene/readers/gltf_mesh.h"
@@ -46,13 +45,10 @@ class Builder {
   }
 
  private:
-  // A placement that mirrors would turn the surfaces inside out: its mesh is stored turned over as well.
   void add_instance(const GltfOccurrence& occurrence) {
-    const bool mirrored = glm::determinant(glm::dmat3(occurrence.world_from_mesh)) < 0;
-    const auto [runs, added] = shared_.try_emplace({occurrence.mesh, mirrored});
-    const glm::dmat4 mirror = glm::dmat4(glm::dmat3(mirrored ? -1.0 : 1.0));
-    if (added) runs->second = meshes_.add(occurrence.mesh, mirror);
-    model_.placements.emplace_back(occurrence.world_from_mesh * mirror);
+    const auto [runs, added] = shared_.try_emplace(occurrence.mesh);
+    if (added) runs->second = meshes_.add(occurrence.mesh, glm::dmat4(1));
+    model_.placements.emplace_back(occurrence.world_from_mesh);
     add_objects(occurrence, runs->second, static_cast<uint32_t>(model_.placements.size() - 1));
   }
 
@@ -93,8 +89,8 @@ class Builder {
   ImportReport& report_;
   GltfMeshes meshes_;
   uint64_t objects_left_;
-  std::map<std::pair<int, bool>, std::vector<GltfRun>> shared_;  // of mesh, mirrored
-  std::map<uint64_t, size_t> of_document_;                       // batch id -> object
+  std::map<int, std::vector<GltfRun>> shared_;  // meshes of instances
+  std::map<uint64_t, size_t> of_document_;      // batch id -> object
 };
 
 }  // namespace

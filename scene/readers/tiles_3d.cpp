@@ -76,6 +76,8 @@ class TilesReader {
     int depth = 0;
   };
 
+  std::string where(const std::string& path) const { return file_.name + ": " + printable(path); }
+
   // Whether any content was found for the tile or below.
   bool visit(const Tile& tile, Place place) {
     place.world_from_parent = place.world_from_parent * tile.parent_from_tile;
@@ -83,8 +85,8 @@ class TilesReader {
     for (const Tile& child : tile.children) below |= visit(child, place);
     if (below && !tile.adds) {
       if (!tile.contents.empty())
-        count_dropped(report_, "tile that finer ones replace",
-                      place.folder + printable(tile.contents.front()), tile.contents.size());
+        count_dropped(report_, "tile that finer ones replace", where(place.folder + tile.contents.front()),
+                      tile.contents.size());
       return true;
     }
     bool here = false;
@@ -95,18 +97,17 @@ class TilesReader {
   bool open(const std::string& uri, const Place& place) {
     const std::string relative = decode_uri(uri.substr(0, uri.find_first_of("?#")));
     if (uri.find("://") != std::string::npos || uri.starts_with("data:")) {
-      count_dropped(report_, "tile on the network", printable(uri));
+      count_dropped(report_, "tile on the network", where(uri));
       return false;
     }
     const std::string path =
         std::filesystem::path(place.folder + relative).lexically_normal().generic_string();
     std::optional<InputFile> found = find_(path);
     if (!found) {
-      count_dropped(report_, "tile that is missing", printable(path));
+      count_dropped(report_, "tile that is missing", where(path));
       return false;
     }
     const auto file = std::make_shared<const InputFile>(*std::move(found));
-    report_.bytes_read += file->content().size();
     const bool again = !visited_.insert(path).second;
     if (again && (repeated_ += file->content().size()) > most_repeated)
       throw bad_input(file_.name, "tiles", "show " + printable(path) + " too often; cut the tileset");
@@ -141,7 +142,7 @@ class TilesReader {
       return any;
     }
     if (format == "i3dm" || format == "pnts" || format == "vctr" || format == "geom") {
-      count_dropped(report_, "tile of format " + format, printable(content.path));
+      count_dropped(report_, "tile of format " + format, where(content.path));
       return false;
     }
     if (!is_tile_format(content.bytes))
@@ -178,7 +179,6 @@ class TilesReader {
     for (Parsed& part : parsed) {
       if (part.error) std::rethrow_exception(part.error);
       append(model_, std::move(part.model));
-      report_.bytes_read += part.report.bytes_read;
       for (const auto& [reason, dropped] : part.report.dropped)
         count_dropped(report_, reason, dropped.first_place, dropped.count);
     }

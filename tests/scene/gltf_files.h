@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -93,7 +94,8 @@ inline std::vector<glm::dvec3> corners(const RawModel& model, uint64_t polygon) 
   return points;
 }
 
-/// Between an object's surfaces and the plane through `base`, m3: positive where the faces point outwards.
+/// Between an object's surfaces and the plane through `base`, m3: positive where the faces point outwards, of
+/// an instance that is mirrored the faces of its mesh.
 inline double volume_m3(const RawModel& model, const RawObject& object, const glm::dvec3& base) {
   double volume = 0;
   for (const RawPatch& patch : object.patches)
@@ -106,7 +108,9 @@ inline double volume_m3(const RawModel& model, const RawObject& object, const gl
                 base;
       volume += glm::dot(p[0], glm::cross(p[1], p[2])) / 6;
     }
-  return volume;
+  const bool mirrored = object.placement != RawObject::unplaced &&
+                        glm::determinant(glm::dmat3(model.placements[object.placement])) < 0;
+  return mirrored ? -volume : volume;
 }
 
 inline const RawObject& object_named(const RawModel& model, const std::string& name) {

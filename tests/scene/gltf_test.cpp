@@ -45,9 +45,9 @@ TEST(Gltf, NodesOfOneMeshAreInstances) {
   EXPECT_TRUE(report.dropped.empty());
   ASSERT_EQ(model.objects.size(), 7u);
   EXPECT_EQ(model.placements.size(), 6u);
-  // the cottage (14 triangles of 10 vertices) as it is and mirrored, and the ground
-  EXPECT_EQ(model.polygons.size(), 2 * 14 + 2u);
-  EXPECT_EQ(model.vertices.size(), 2 * 10 + 4u);
+  // the cottage (14 triangles of 10 vertices) and the ground
+  EXPECT_EQ(model.polygons.size(), 14 + 2u);
+  EXPECT_EQ(model.vertices.size(), 10 + 4u);
 
   const RawObject& ground = object_named(model, "ground");
   EXPECT_EQ(ground.kind, Kind::terrain);
@@ -55,9 +55,8 @@ TEST(Gltf, NodesOfOneMeshAreInstances) {
   EXPECT_EQ(model.polygons[ground.patches[0].polygon_begin].material, Material::terrain);
 
   const RawObject& west = object_named(model, "west");
-  for (const char* name : {"tower", "turned", "row_0", "row_1"})
+  for (const char* name : {"tower", "turned", "mirrored", "row_0", "row_1"})
     EXPECT_EQ(object_named(model, name).patches[0].polygon_begin, west.patches[0].polygon_begin) << name;
-  EXPECT_NE(object_named(model, "mirrored").patches[0].polygon_begin, west.patches[0].polygon_begin);
   for (const char* name : {"west", "turned", "mirrored", "row_0", "row_1"}) {
     EXPECT_EQ(object_named(model, name).kind, Kind::building);
     EXPECT_NEAR(volume_m3(model, object_named(model, name), glm::dvec3(0)), 8 * 6 * (5 + 2 / 2.), 1e-3)
@@ -191,7 +190,6 @@ TEST(Gltf, ExternalBuffersAreFoundAndImagesAreNot) {
   ImportReport report;
   const RawModel model = read(gltf.document.dump(), report, find);
   EXPECT_EQ(asked, "my data+1.bin;");
-  EXPECT_EQ(report.bytes_read, gltf.bytes.size() + 6);
   EXPECT_EQ(corners(model, 0), (Points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
 
   expect_refused([&] { read(gltf.document.dump(), report, [](const auto&) { return std::nullopt; }); },
