@@ -3,12 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "farm/commands.h"
+#include "farm/peak_memory.h"
 #include "scene/import.h"
 
 namespace veduta {
@@ -20,14 +20,6 @@ struct Options {
   std::string up = "auto";
   bool json = false;
 };
-
-/// Of this process, as the kernel counted it; 0 where it does not say.
-double peak_memory_mb() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.starts_with("VmHWM:")) return std::stod(line.substr(6)) * 1.024e-3;
-  return 0;
-}
 
 int run_import(Options options) {
   if (options.up != "auto") options.import.up = options.up == "y" ? UpAxis::y : UpAxis::z;
