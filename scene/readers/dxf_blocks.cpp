@@ -24,6 +24,12 @@ std::string lower(std::string name) {
   return name;
 }
 
+// An insert with a scale of 0, or one beyond all numbers, has no surface.
+bool keeps_volume(const DxfInsert& insert) {
+  const double volume = glm::determinant(glm::dmat3(insert.placement));
+  return volume != 0 && std::isfinite(volume);
+}
+
 glm::dmat4x3 shifted(const glm::dmat4x3& m, glm::dvec3 inner) {
   glm::dmat4x3 result = m;
   result[3] = m * glm::dvec4(inner, 1);
@@ -97,8 +103,7 @@ const DxfBlock* DxfBlocks::find(const DxfInsert& insert, ImportReport& report) c
     count_dropped(report, "insert of a block in another file", place_of(insert));
     return nullptr;
   }
-  const double volume = glm::determinant(glm::dmat3(insert.placement));
-  if (volume == 0 || !std::isfinite(volume)) {
+  if (!keeps_volume(insert)) {
     count_dropped(report, "insert with a scale of 0", place_of(insert));
     return nullptr;
   }
