@@ -24,18 +24,13 @@ void check_words(const WrittenRule& rule, const std::string& name, const std::st
                  std::span<const char* const> known) {
   for (const std::string& word : WantedValues(value).words)
     if (std::find(known.begin(), known.end(), word) == known.end())
-      throw rule.place.error(fmt::format("{}=\"{}\" is never so{}; give one of: {}", name, word,
-                                         did_you_mean(word, {known.begin(), known.end()}),
-                                         fmt::join(known, ", ")));
+      throw rule.place.error(
+          fmt::format("{}=\"{}\" is never so; give one of: {}", name, word, fmt::join(known, ", ")));
 }
 
 void sort_unique(std::vector<int>& numbers) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
-
-std::vector<std::string> listed(const std::set<std::string>& names) {
-  return {names.begin(), names.end()};
 }
 
 }  // namespace
@@ -94,17 +89,17 @@ void check_names(const RulesDocument& document, const std::map<std::string, uint
       for (const WrittenElement& element : rule.elements) {
         if (!known.contains(element.name))
           throw element.place.error(
-              fmt::format("'{}' is neither a shape nor a terminal{}; define it below the root, or in "
-                          "<Terminals>",
-                          element.name, did_you_mean(element.name, listed(known))));
+              fmt::format("'{}' is neither a shape nor a terminal, below the root or in <Terminals>{}",
+                          element.name, did_you_mean(element.name, known)));
         if (terminals.contains(element.name) && !element.attributes.empty())
           throw element.place.error(
               fmt::format("terminal '{}' has the attribute '{}'; only shapes with rules have attributes",
                           element.name, element.attributes[0].first));
         for (const auto& [name, value] : element.attributes) {
           if (!attributes.index.contains(name))
-            throw element.place.error(fmt::format("no rule asks for the attribute '{}'{}; remove it", name,
-                                                  did_you_mean(name, attributes.names)));
+            throw element.place.error(
+                fmt::format("no rule asks for the attribute '{}'{}", name,
+                            did_you_mean(name, {attributes.names.begin(), attributes.names.end()})));
           given.insert(name);
         }
       }
@@ -112,8 +107,8 @@ void check_names(const RulesDocument& document, const std::map<std::string, uint
     for (const WrittenRule& rule : shape.rules)
       for (const auto& [name, value] : rule.attributes)
         if (!given.contains(name))
-          throw rule.place.error(fmt::format("no shape has the attribute '{}' of rule '{}'{}; remove it",
-                                             name, rule.name, did_you_mean(name, listed(given))));
+          throw rule.place.error(fmt::format("no shape has the attribute '{}' of rule '{}'{}", name,
+                                             rule.name, did_you_mean(name, given)));
 }
 
 }  // namespace veduta::city

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -68,7 +68,7 @@ struct RulesDocument {
 /// \throw Error(bad_input) as load_rules does
 RulesDocument read_rules_document(const std::filesystem::path& file);
 
-/// ", did you mean 'Window'?", or nothing when no name is near.
-std::string did_you_mean(std::string_view name, const std::vector<std::string>& known);
+/// "; did you mean 'Window'?", or nothing where no name is known.
+std::string did_you_mean(const std::string& name, const std::set<std::string>& known);
 
 }  // namespace veduta::city

@@ -74,9 +74,8 @@ void read_fixed(const XmlElement& fixed, WrittenRule& rule) {
       has_elements = true;
       for (const XmlElement& element : child.children()) rule.elements.push_back(read_element(element));
     } else {
-      throw child.place().error(
-          fmt::format("<Fixed> knows no <{}>{}; it holds xProportions, yProportions and Elements", name,
-                      did_you_mean(name, {"xProportions", "yProportions", "Elements"})));
+      throw child.place().error(fmt::format(
+          "<Fixed> knows no <{}>{}", name, did_you_mean(name, {"xProportions", "yProportions", "Elements"})));
     }
   }
   if (!has_elements) throw fixed.place().error("<Fixed> without <Elements>; list what stands in its cells");

@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "scene/nearest_word.h"
+
 namespace veduta::city {
 namespace {
 
@@ -90,7 +92,7 @@ Attributes XmlElement::attributes() const {
 void XmlElement::allow_only(std::initializer_list<const char*> known) const {
   for (const auto& [attribute, value] : attributes())
     if (std::find(known.begin(), known.end(), attribute) == known.end())
-      throw place().error(fmt::format("<{}> knows no attribute '{}'{}; remove it", name(), attribute,
+      throw place().error(fmt::format("<{}> knows no attribute '{}'{}", name(), attribute,
                                       did_you_mean(attribute, {known.begin(), known.end()})));
 }
 
@@ -102,28 +104,8 @@ size_t XmlElement::one_of(const char* attribute, std::initializer_list<const cha
                                   fmt::join(known.begin(), known.end(), ", ")));
 }
 
-std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
-  const std::string* nearest = nullptr;
-  size_t least = std::max<size_t>(1, name.size() / 3) + 1;
-  for (const std::string& other : known) {
-    std::vector<size_t> row(other.size() +
-                            1);  // edits from the first i letters of `name` to those of `other`
-    for (size_t j = 0; j <= other.size(); ++j) row[j] = j;
-    for (size_t i = 1; i <= name.size(); ++i) {
-      size_t diagonal = row[0];
-      row[0] = i;
-      for (size_t j = 1; j <= other.size(); ++j) {
-        const size_t replaced = diagonal + (name[i - 1] == other[j - 1] ? 0 : 1);
-        diagonal = row[j];
-        row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
-      }
-    }
-    if (row.back() < least) {
-      least = row.back();
-      nearest = &other;
-    }
-  }
-  return nearest ? fmt::format(", did you mean '{}'?", *nearest) : "";
+std::string did_you_mean(const std::string& name, const std::set<std::string>& known) {
+  return known.empty() ? "" : fmt::format("; did you mean '{}'?", nearest_word(name, known));
 }
 
 }  // namespace veduta::city

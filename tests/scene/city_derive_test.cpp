@@ -1,6 +1,9 @@
 // Derived buildings: closed, the right way round, the same every time.
 #include "scene/city/derive.h"
 
+#include <tbb/global_control.h>
+
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -99,6 +102,117 @@ TEST_F(CityDerive, SameSeedSameMesh) {
   const Mesh a = mesh(1), b = mesh(1), c = mesh(2);
   EXPECT_EQ(a.vertices, b.vertices);
   EXPECT_NE(a.vertices, c.vertices);
+}
+
+// Party walls are one piece as far up as the neighbour covers whole floors.
+TEST_F(CityDerive, BlindWallsArePlain) {
+  const RuleSet rules = load(windows_);
+  BuildingPlan building = plan(outlines.at("rectangle"), 3);
+  building.blind_m = {{9, 6.5, 0, 9}};
+  const Mesh mesh = derive_building(building, rules);
+  const auto glass = static_cast<uint16_t>(std::find(rules.layers.begin(), rules.layers.end(), "glass") -
+                                           rules.layers.begin());
+  bool on_free = false, above = false;
+  for (const Face& face : mesh.faces) {
+    if (face.layer != glass) continue;
+    const glm::dvec3 p = mesh.vertices[face.corner[0]];
+    EXPECT_FALSE(p.y == -6 || p.x == -10);
+    EXPECT_TRUE(p.x < 10 || p.z > 6) << p.z;  // 6.5 m cover two floors
+    above |= p.x == 10;
+    on_free |= p.y == 6;
+  }
+  EXPECT_TRUE(on_free && above);
+}
+
+TEST_F(CityDerive, FloorsAreAlikeUnlessTheyVary) {
+  const auto rows = [&](const std::string& vary) {
+    const RuleSet rules = load("<Building vary=\"" + vary + "\"/>" + windows_);
+    const Mesh mesh = derive_building(plan(outlines.at("rectangle"), 3), rules);
+    std::map<double, std::set<double>> places;  // of vertices on one wall, by height above their floor
+    for (const glm::dvec3& p : mesh.vertices)
+      if (p.y == -6 && std::fmod(p.z, 3) == 1) places[p.z].insert(p.x);
+    EXPECT_EQ(places.size(), 3u);
+    return places;
+  };
+  auto alike = rows("facade");
+  EXPECT_EQ(alike[4], alike[7]);
+  auto different = rows("floor");
+  EXPECT_NE(different[4], different[7]);
+}
+
+TEST_F(CityDerive, StatedHeight) {
+  const RuleSet rules = load("<Building groundHeight=\"4\"/><Floor><F><Wall/></F></Floor>");
+  BuildingPlan building = plan(outlines.at("square"), 3);
+  building.height_m = 20;
+  std::set<double> heights;
+  for (const glm::dvec3& p : derive_building(building, rules).vertices) heights.insert(p.z);
+  EXPECT_EQ(heights, (std::set<double>{0, 8, 14, 20}));
+}
+
+TEST_F(CityDerive, BadPlans) {
+  const RuleSet rules = load("<Floor><F><Wall/></F></Floor>");
+  EXPECT_THROW(derive_building(plan({}), rules), Error);
+  EXPECT_THROW(derive_building(plan({{{0, 0}, {1, 0}, {1, 0}}}), rules), Error);
+  EXPECT_THROW(derive_building(plan({{{0, 0}, {1, 0}, {0, std::nan("")}}}), rules), Error);
+  EXPECT_THROW(derive_building(plan(outlines.at("square"), 0), rules), Error);
+  EXPECT_THROW(derive_building(plan(outlines.at("square"), 2'000'000'000), rules), Error);
+}
+
+// Layers of all styles are united, and threads change nothing.
+TEST_F(CityDerive, CityOfSeveralStyles) {
+  std::vector<RuleSet> styles{load(windows_), load(R"(<Terminals><Wall layer="wall_brick"/></Terminals>
+      <Floor><F><Wall/></F></Floor>)")};
+  CityPlan city;
+  for (uint32_t i = 0; i < 60; ++i) {
+    city.buildings.push_back(plan(outlines.at(i % 3 == 0 ? "L" : "square"), 1 + static_cast<int>(i) % 5, i));
+    city.buildings.back().style = i % 2;
+    city.sites.push_back({std::to_string(i), i, glm::dmat4x3(1)});
+  }
+  city.sites.push_back({"again", 1, glm::dmat4x3(1)});
+  const CityModel model = build_city(city, styles);
+  ASSERT_EQ(model.meshes.size(), 60u);
+  EXPECT_EQ(model.floors[4], 5);
+  const auto layer = [&](const std::string& name) {
+    return static_cast<uint16_t>(std::find(model.layers.begin(), model.layers.end(), name) -
+                                 model.layers.begin());
+  };
+  EXPECT_EQ(std::count(model.layers.begin(), model.layers.end(), "roof"), 1);
+  EXPECT_EQ(model.meshes[1].faces[0].layer, layer("wall_brick"));
+  EXPECT_EQ(model.meshes[0].faces[0].layer, layer("wall"));
+  uint64_t triangles = model.meshes[1].triangle_count();
+  for (const Mesh& mesh : model.meshes) triangles += mesh.triangle_count();
+  EXPECT_EQ(model.triangle_count(), triangles);
+
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const CityModel again = build_city(city, styles);
+  for (size_t i = 0; i < 60; ++i) {
+    EXPECT_EQ(model.meshes[i].vertices, again.meshes[i].vertices);
+    EXPECT_TRUE(
+        std::equal(model.meshes[i].faces.begin(), model.meshes[i].faces.end(), again.meshes[i].faces.begin(),
+                   again.meshes[i].faces.end(),
+                   [](const Face& a, const Face& b) { return a.corner == b.corner && a.layer == b.layer; }));
+  }
+}
+
+// The styles that come with the program: closed, of a bearable size, with windows and a door.
+TEST_F(CityDerive, StylesOfTheHouse) {
+  const std::filesystem::path folder = std::filesystem::path(VEDUTA_TEST_DATA) / "../../configs/city/rules";
+  int styles = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const RuleSet rules = load_rules(entry.path());
+    ++styles;
+    for (const char* outline : {"rectangle", "courtyard", "irregular", "short edges"}) {
+      const Mesh mesh = derive_building(plan(outlines.at(outline), 5), rules);
+      const Crossings crossings = cross(mesh, 300);
+      EXPECT_EQ(crossings.open, 0) << rules.name << outline << crossings.first;
+      EXPECT_EQ(crossings.inside_out, 0) << rules.name << outline << crossings.first;
+      std::set<std::string> layers;
+      for (const Face& face : mesh.faces) layers.insert(rules.layers[face.layer]);
+      EXPECT_TRUE(layers.contains("glass") && layers.contains("door")) << rules.name;
+      EXPECT_LT(mesh.triangle_count(), 40000u);
+    }
+  }
+  EXPECT_GE(styles, 7);
 }
 
 TEST_F(CityDerive, RuleThatOnlyShrinksForEver) {
