@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
+#include <optional>
 #include <pugixml.hpp>
 
 #include "scene/ground_surface.h"
+#include "scene/readers/numbers.h"
 
 namespace veduta::citygml {
 namespace {
@@ -88,14 +89,12 @@ std::vector<double> numbers_of(const pugi::xml_node& node, const Document& docum
     while (at < end && separates(*at)) ++at;
     if (at == end) return numbers;
     const char* const word_end = std::find_if(at, end, separates);
-    const char* const digits = *at == '+' ? at + 1 : at;
-    double number = 0;
-    const std::from_chars_result result = std::from_chars(digits, word_end, number);
-    if (result.ec != std::errc() || result.ptr != word_end || !std::isfinite(number))
+    const string_view word(at, static_cast<size_t>(word_end - at));
+    const std::optional<double> number = parse_number(word);
+    if (!number || !std::isfinite(*number))
       throw bad_input(file, "line " + std::to_string(document.line(node)),
-                      "'" + printable({at, static_cast<size_t>(word_end - at)}, 40) +
-                          "' is not a finite number; repair the coordinates");
-    numbers.push_back(number);
+                      "'" + printable(word, 40) + "' is not a finite number; repair the coordinates");
+    numbers.push_back(*number);
     at = word_end;
   }
 }
