@@ -91,6 +91,11 @@ bool is_geographic(const std::string& crs) {
   return horizontal(crs).IsGeographic();
 }
 
+double metres_per_unit(const std::string& crs) {
+  const OGRSpatialReference found = horizontal(crs);
+  return found.IsProjected() ? found.GetLinearUnits() : 1;
+}
+
 bool same_crs(const std::string& a, const std::string& b) {
   const OGRSpatialReference first = horizontal(a), second = horizontal(b);
   const char* const options[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES",

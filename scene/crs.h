@@ -30,6 +30,10 @@ class CrsTransform {
 /// Whether coordinates are longitude and latitude in degrees. \throw Error(bad_input) for an unknown CRS
 bool is_geographic(const std::string& crs);
 
+/// Metres in a unit of a projected CRS (0.3048006 for US survey feet); 1 where coordinates are degrees.
+/// \throw Error(bad_input) for an unknown CRS
+double metres_per_unit(const std::string& crs);
+
 /// Whether both are the same horizontal CRS. \throw Error(bad_input) for an unknown CRS
 bool same_crs(const std::string& a, const std::string& b);
 

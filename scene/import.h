@@ -24,8 +24,8 @@ struct ImportOptions {
   /// Metres in a unit of the file; 0: what the file or its format says, else 1.
   double unit_m = 0;
   /// The scene's CRS ("EPSG:3946"). Files that state another are transformed to it; files that state none are
-  /// taken to be in it. Empty: the CRS of the first file that states one; when that is in degrees, the UTM
-  /// zone of its middle.
+  /// taken to be in it. Empty: the CRS of the first file that states one; when that is in degrees or
+  /// feet, the UTM zone of its middle.
   std::string crs = {};
   /// Names of the attributes of footprints that hold the height in m and the number of floors; empty: the
   /// usual names are tried (scene/footprints.h).

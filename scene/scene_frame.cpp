@@ -16,17 +16,28 @@
 namespace veduta {
 namespace {
 
-void turn_and_scale(RawModel& model, const ImportOptions& options, bool degrees) {
+// What a CRS says of its coordinates' units.
+struct CrsUnit {
+  bool metres = true;    // else degrees or feet: x and y are projected to metres, not scaled
+  double of_height = 1;  // as nothing else is said: the unit of x and y, or metres beside degrees
+};
+
+CrsUnit unit_of(const std::string& crs) {
+  if (crs.empty()) return {};
+  const double unit_m = metres_per_unit(crs);
+  return {unit_m == 1 && !is_geographic(crs), unit_m};
+}
+
+void turn_and_scale(RawModel& model, const ImportOptions& options, const CrsUnit& crs) {
   const UpAxis up = options.up == UpAxis::from_file ? model.up : options.up;
-  const double unit = options.unit_m > 0 ? options.unit_m : model.unit_m;
+  const double unit = options.unit_m > 0 ? options.unit_m : model.unit_m * crs.of_height;
+  const double flat_unit = crs.metres ? unit : 1;
   model.up = UpAxis::z;
   model.unit_m = 1;
   if (up != UpAxis::y && unit == 1) return;
-  glm::dmat3 scene_from_file(1);
-  if (up == UpAxis::y) scene_from_file = {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};  // columns
-  const double flat_unit = degrees ? 1 : unit;                                // longitudes have no metres
-  scene_from_file = glm::dmat3({flat_unit, 0, 0}, {0, flat_unit, 0}, {0, 0, unit}) * scene_from_file;
-  map_linearly(model, scene_from_file);
+  const glm::dmat3 turned({1, 0, 0}, {0, 0, 1}, {0, -1, 0});  // columns
+  const glm::dmat3 scaled({flat_unit, 0, 0}, {0, flat_unit, 0}, {0, 0, unit});
+  map_linearly(model, up == UpAxis::y ? scaled * turned : scaled);
 }
 
 // Looks each CRS up once.
@@ -58,24 +69,25 @@ std::string scene_crs(const std::vector<RawModel>& models, const ImportOptions& 
     if (crs.empty()) crs = model.crs;
     if (first == nullptr && (model.crs.empty() ? !options.crs.empty() : model.crs == crs)) first = &model;
   }
-  if (crs.empty() || !is_geographic(crs) || first == nullptr) return crs;
+  if (first == nullptr || unit_of(crs).metres) return crs;
   Extent extent;
   for (const RawObject& object : first->objects) {
     const Extent own = own_extent(*first, object);
     extent.extend(own.lower);
     extent.extend(own.upper);
   }
-  const glm::dvec3 middle = 0.5 * (extent.lower + extent.upper);
+  glm::dvec3 middle = 0.5 * (extent.lower + extent.upper);
+  if (!is_geographic(crs)) CrsTransform(crs, "EPSG:4326").apply({&middle, 1});
   return utm_zone(middle.x, middle.y);
 }
 
 }  // namespace
 
 void bring_to_frame(std::vector<RawModel>& models, const ImportOptions& options) {
-  std::map<std::string, bool> degrees{{"", false}};  // a city may have 50,000 files
+  std::map<std::string, CrsUnit> units;  // a city may have 50,000 files
   for (RawModel& model : models) {
-    const auto [known, added] = degrees.try_emplace(model.crs.empty() ? options.crs : model.crs);
-    if (added) known->second = is_geographic(known->first);
+    const auto [known, added] = units.try_emplace(model.crs.empty() ? options.crs : model.crs);
+    if (added) known->second = unit_of(known->first);
     turn_and_scale(model, options, known->second);
   }
   const std::string crs = scene_crs(models, options);

@@ -164,5 +164,13 @@ TEST(Crs, ThreadsEachWithTheirOwn) {
   }
 }
 
+TEST(Crs, UnitsOfProjectedOnes) {
+  EXPECT_EQ(metres_per_unit("EPSG:28992"), 1);
+  EXPECT_EQ(metres_per_unit("EPSG:7415"), 1) << "its flat part";
+  EXPECT_EQ(metres_per_unit("EPSG:4326"), 1);
+  EXPECT_NEAR(metres_per_unit("EPSG:2263"), 1200.0 / 3937, 1e-12) << "US survey feet";
+  EXPECT_THROW(metres_per_unit("EPSG:1"), Error);
+}
+
 }  // namespace
 }  // namespace veduta

@@ -106,6 +106,17 @@ TEST(SceneFrame, DegreesBecomeTheUtmZoneOfTheirMiddle) {
   expect_near(framed(scaled).vertices[0], {stated.vertices[0].x, stated.vertices[0].y, 125});
 }
 
+// gdaltransform -s_srs EPSG:2263 -t_srs EPSG:32618 says 583167.684 4507656.211 of 980000 200000.
+TEST(SceneFrame, FeetBecomeMetresInTheUtmZone) {
+  const RawModel model = framed(model_at({980000, 200000, 100}, "EPSG:2263", 100));
+  EXPECT_EQ(model.crs, "EPSG:32618");
+  expect_near(model.vertices[0], {583167.684, 4507656.211, 100 * 1200.0 / 3937}, 0.01);
+  expect_near(model.vertices[1] - model.vertices[0], {30.48, 0, 0}, 0.5);
+  const RawModel metres = framed(model_at({980000, 200000, 100}, "EPSG:2263", 100), {.unit_m = 1});
+  EXPECT_EQ(metres.vertices[0].z, 100) << "heights in metres, as the user says";
+  expect_near(metres.vertices[0], {model.vertices[0].x, model.vertices[0].y, 100});
+}
+
 TEST(SceneFrame, CrsThatNobodyKnowsAreRefused) {
   EXPECT_THROW(framed(model_at({0, 0, 0}, "EPSG:1")), Error);
   EXPECT_THROW(framed(model_at({0, 0, 0}), {.crs = "the moon"}), Error);
