@@ -1,11 +1,16 @@
 #include "scene/readers/readers.h"
 
+#include <fmt/format.h>
+
+#include "scene/footprints.h"
 #include "scene/model_format.h"
 #include "scene/readers/citygml.h"
 #include "scene/readers/cityjson.h"
 #include "scene/readers/dxf.h"
+#include "scene/readers/extruded_footprints.h"
 #include "scene/readers/gltf.h"
 #include "scene/readers/obj.h"
+#include "scene/readers/polygon_soup.h"
 #include "scene/readers/tiles_3d.h"
 #include "scene/text.h"
 
@@ -19,6 +24,18 @@ FindFile counted(FindFile find, ImportReport& report) {
     if (found) report.bytes_read += found->content().size();
     return found;
   };
+}
+
+RawModel read_plan(const InputFile& file, const FindFile& find, const ImportOptions& options,
+                   ImportReport& report) {
+  const Footprints plan = read_footprints(file, find, options, report);
+  RawModel model = extrude_footprints(plan, options, report);
+  if (model.polygons.empty())
+    throw bad_input(file.name, "whole file",
+                    fmt::format("none of its {} footprints states a height or floors; name the attribute in "
+                                "scene.height_field or scene.floors_field",
+                                plan.footprints.size()));
+  return model;
 }
 
 // JSON of another kind lies in many folders: only one that was named as a model is an error.
@@ -51,7 +68,13 @@ std::optional<ReadModel> read_model(const ModelFiles& files, const std::string& 
     case ModelFormat::obj:
       return read_obj_at_its_place(files, name, file, report);
     case ModelFormat::dxf:
-      return plain(read_dxf(file, options, report));
+      return plain(is_dxf_plan(file) ? read_plan(file, find, options, report)
+                                     : read_dxf(file, options, report));
+    case ModelFormat::geojson:
+    case ModelFormat::shapefile:
+      return plain(read_plan(file, find, options, report));
+    case ModelFormat::polygon_soup:
+      return plain(read_polygon_soup(file, report));
     case ModelFormat::gltf:
       return plain(read_gltf(file, find, report));
     case ModelFormat::tiles_3d:
@@ -61,10 +84,12 @@ std::optional<ReadModel> read_model(const ModelFiles& files, const std::string& 
       throw bad_input(file.name, "features", "are an index of model files; give the folder that holds them");
     case ModelFormat::citygml:
       return plain(read_citygml(file, report));
-    default:
-      throw bad_input(file.name, "line 1",
-                      "neither CityJSON (.json, .jsonl) nor Wavefront OBJ (.obj); convert it");
+    case ModelFormat::unknown:
+      break;
   }
+  throw bad_input(file.name, "line 1",
+                  "neither its content nor its extension is of a format that is read (docs/importing.md); "
+                  "convert it to CityJSON, glTF or OBJ");
 }
 
 }  // namespace veduta

@@ -98,7 +98,7 @@ TEST_F(ImportFolder, WhatIsNoModel) {
   expect_refused(directory_ / "texts", "holds no surface");
   write_archive(directory_ / "texts.zip", {{"README", "x"}});
   expect_refused(directory_ / "texts.zip", "archive: none of its 1 files is a model");
-  expect_refused(directory_ / "texts/a.las", "a.las: line 1: neither");
+  expect_refused(directory_ / "texts/a.las", "a.las: line 1: neither its content");
   write_archive(directory_ / "cut.tar.gz", {{"a.obj", box(0, 0, 0, 10, 10, 8)}});
   fs::resize_file(directory_ / "cut.tar.gz", fs::file_size(directory_ / "cut.tar.gz") / 2);
   expect_refused(directory_ / "cut.tar.gz", "cut short");
