@@ -114,7 +114,9 @@ class BuildingDeriver {
 
   void derive_facade(const BuildingPlan& plan, size_t ring, size_t i) {
     const Ring& points = outline_.rings[ring];
-    const Facade facade(points[i], points[(i + 1) % points.size()]);
+    const size_t count = points.size();
+    Facade facade(points[i], points[(i + 1) % count]);
+    facade.keep_clear_of(points[(i + count - 1) % count], points[(i + 2) % count]);
     const int floors = static_cast<int>(levels_.size()) - 1, blind = blind_floors_[ring][i];
     if (blind > 0) facades_.wall(facade, {0, facade.length_m, 0, levels_[static_cast<size_t>(blind)]});
     const Side side = ring > 0 ? Side::court : i == front_ ? Side::front : Side::street;

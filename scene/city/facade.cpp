@@ -34,6 +34,16 @@ Facade::Facade(const glm::dvec2& from, const glm::dvec2& to)
   out = {along.y, -along.x};
 }
 
+void Facade::keep_clear_of(const glm::dvec2& previous, const glm::dvec2& next) {
+  const auto cotangent = [](const glm::dvec2& p, const glm::dvec2& q) {  // of half the angle from q to -p
+    const double sine = p.x * q.y - p.y * q.x, cosine = -glm::dot(p, q);
+    return sine > 0 ? (1 + cosine) / sine : 0.0;
+  };
+  const glm::dvec2 along = (b - a) / length_m;
+  clear_a = cotangent(glm::normalize(a - previous), along);
+  clear_b = cotangent(along, glm::normalize(next - b));
+}
+
 void FacadeDeriver::derive(const Facade& facade, const Rectangle& rectangle, uint32_t state,
                            RandomPlace place) {
   lines_.clear();
@@ -99,6 +109,9 @@ void FacadeDeriver::split(const Facade& facade, const Rectangle& r, uint32_t sta
 }
 
 void FacadeDeriver::put(const Terminal& terminal, const Facade& facade, const Rectangle& r) {
+  if (r.u0 < terminal.recess_m * facade.clear_a ||
+      facade.length_m - r.u1 < terminal.recess_m * facade.clear_b)
+    return wall(facade, r);
   vertices_.clear();
   for (size_t i = 0; i < terminal.vertices.size(); ++i) {
     const glm::dvec3& p = terminal.vertices[i];

@@ -18,8 +18,14 @@ struct Facade {
     const double t = u / length_m;
     return {a.x * (1 - t) + b.x * t + out.x * w, a.y * (1 - t) + b.y * t + out.y * w, v};
   }
+  /// Keeps recesses on their side of the corners with the walls before and after, which end at `previous` and
+  /// `next`.
+  void keep_clear_of(const glm::dvec2& previous, const glm::dvec2& next);
+
   glm::dvec2 a, b, out;
   double length_m;
+  /// What is set back by d keeps d times this away from the ends: the cotangent of half the corner's angle.
+  double clear_a = 0, clear_b = 0;
 };
 
 struct Rectangle {
@@ -51,6 +57,7 @@ class FacadeDeriver {
 
   void split(const Facade& facade, const Rectangle& rectangle, uint32_t state, RandomPlace place, int depth);
   const Choice* choose(const State& state, const Rectangle& rectangle, RandomPlace place) const;
+  /// Plain wall where the terminal would reach through a corner.
   void put(const Terminal& terminal, const Facade& facade, const Rectangle& rectangle);
 
   const RuleSet* rules_ = nullptr;

@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 
+#include "scene/city/terminal_check.h"
 #include "scene/import.h"
 #include "scene/readers/dxf.h"
 #include "scene/readers/obj.h"
@@ -20,7 +21,6 @@ namespace {
 
 constexpr double snap = 1e-6;  // coordinates this near to a border lie on it
 constexpr size_t most_faces = 20000;
-constexpr int samples = 37;  // rays along an axis: this many squared
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -151,56 +151,15 @@ class Builder {
   std::map<std::array<double, 3>, uint32_t> index_;
 };
 
-// How often a line along `axis` through the point (p, q) of the other two axes passes faces from behind, less
-// how often from the front.
-int crossings(const Terminal& terminal, int axis, double p, double q) {
-  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  int sum = 0;
-  const auto side = [&](const glm::dvec3& a, const glm::dvec3& b) {
-    return (b[u] - a[u]) * (q - a[v]) - (b[v] - a[v]) * (p - a[u]);
-  };
-  const auto triangle = [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    const double x = side(a, b), y = side(b, c), z = side(c, a);
-    if (x > 0 && y > 0 && z > 0) ++sum;
-    if (x < 0 && y < 0 && z < 0) --sum;
-  };
+// Of what is seen from outside: bodies in front of the wall may reach into it.
+double recess_of(const Terminal& terminal) {
+  double lowest = 0;
   for (const Face& face : terminal.faces) {
-    const glm::dvec3 &a = terminal.vertices[face.corner[0]], &c = terminal.vertices[face.corner[2]];
-    triangle(a, terminal.vertices[face.corner[1]], c);
-    if (face.is_quad()) triangle(a, c, terminal.vertices[face.corner[3]]);
+    const glm::dvec3 &a = terminal.vertices[face.corner[0]], &b = terminal.vertices[face.corner[1]],
+                     &c = terminal.vertices[face.corner[2]];
+    if (glm::cross(b - a, c - b).z > 0) lowest = std::min({lowest, a.z, b.z, c.z});
   }
-  return sum;
-}
-
-// A closed wall with solid things before it passes every line along z once in all, and every other line as
-// often in as out. Anything else is a hole, a face inside out, or a sheet without thickness.
-void check_closed(const Terminal& terminal, const std::string& file) {
-  glm::dvec3 low(0, 0, -1e-3), high(1, 1, 1e-3);
-  for (const glm::dvec3& p : terminal.vertices) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  if (low.x < -2 || low.y < -20 || high.x > 3 || high.y > 20 || low.z < -5 || high.z > 5)
-    throw bad_input(file, "vertices",
-                    "reach far out of the unit square; scale the shape to x, y from 0 to 1");
-  for (int axis = 0; axis < 3; ++axis)
-    for (int i = 0; i < samples; ++i)
-      for (int j = 0; j < samples; ++j) {
-        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-        // Off the round numbers that corners are at.
-        const double p = low[u] + (high[u] - low[u]) * (i + 0.4142135) / samples;
-        const double q = low[v] + (high[v] - low[v]) * (j + 0.7320508) / samples;
-        const bool in_square = axis == 2 && p > 0 && p < 1 && q > 0 && q < 1;
-        const int expected = in_square ? 1 : 0, found = crossings(terminal, axis, p, q);
-        if (found == expected) continue;
-        const char* names = "xyz";
-        throw bad_input(
-            file, fmt::format("{} = {:.3f}, {} = {:.3f}", names[u], p, names[v], q),
-            fmt::format(
-                "{} faces too {} along {}; close the shape over the unit square, turn all faces outwards "
-                "(counter-clockwise) and give thin parts two sides",
-                std::abs(found - expected), found < expected ? "few" : "many", names[axis]));
-      }
+  return -lowest;
 }
 
 }  // namespace
@@ -214,8 +173,12 @@ uint16_t layer_index(std::vector<std::string>& layers, const std::string& name) 
 }
 
 Terminal plain_terminal(const std::string& name, uint16_t layer) {
-  return {
-      name, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {true, true, true, true}, {{{0, 1, 2, 3}, layer}}};
+  Terminal terminal;
+  terminal.name = name;
+  terminal.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  terminal.at_border.assign(4, true);
+  terminal.faces = {{{0, 1, 2, 3}, layer}};
+  return terminal;
 }
 
 Terminal load_terminal(const std::string& name, const std::filesystem::path& path,
@@ -237,6 +200,7 @@ Terminal load_terminal(const std::string& name, const std::filesystem::path& pat
   }
   builder.add_reveals(layer_index(layers, wall_layer));
   check_closed(builder.terminal, model.file);
+  builder.terminal.recess_m = recess_of(builder.terminal);
   return std::move(builder.terminal);
 }
 

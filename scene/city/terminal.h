@@ -18,6 +18,7 @@ struct Terminal {
   std::vector<glm::dvec3> vertices;
   std::vector<bool> at_border;  ///< [vertices] where a neighbour's vertex may be
   std::vector<Face> faces;      ///< layers are of the rule set
+  double recess_m = 0;          ///< how far behind z = 0 its outside lies
 };
 
 /// The index of a layer, which is added when it is new.

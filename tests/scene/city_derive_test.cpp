@@ -140,6 +140,20 @@ TEST_F(CityDerive, FloorsAreAlikeUnlessTheyVary) {
   EXPECT_NE(different[4], different[7]);
 }
 
+// A recess that would come out of the next wall becomes plain wall.
+TEST_F(CityDerive, RecessesKeepClearOfCorners) {
+  write("deep.obj", "g glass\nv 0 0 -1\nv 1 0 -1\nv 1 1 -1\nv 0 1 -1\nf 1 2 3 4\n");
+  const RuleSet rules = load(R"(<Terminals><Deep file="deep.obj"/></Terminals>
+    <Floor><F><Repeat minWidth="0.8"><Deep/></Repeat></F></Floor>)");
+  for (const auto& [name, rings] : outlines) {
+    if (name == "thin" || name == "short edges") continue;
+    const Mesh mesh = derive_building(plan(rings, 1), rules);
+    const Crossings crossings = cross(mesh, 400);
+    EXPECT_EQ(crossings.open + crossings.inside_out, 0) << name << crossings.first;
+    EXPECT_GT(mesh.faces.size(), 100u);
+  }
+}
+
 TEST_F(CityDerive, StatedHeight) {
   const RuleSet rules = load("<Building groundHeight=\"4\"/><Floor><F><Wall/></F></Floor>");
   BuildingPlan building = plan(outlines.at("square"), 3);
