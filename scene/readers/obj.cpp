@@ -17,7 +17,7 @@ namespace {
 using std::string_view;
 
 constexpr auto ignored =
-    std::to_array<string_view>({"vn", "vt", "vp", "s", "mg", "mtllib", "usemtl", "maplib", "usemap", "bevel",
+    std::to_array<string_view>({"vn", "vt", "vp", "s", "mg", "mtllib", "maplib", "usemap", "bevel",
                                 "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj", "ctech", "stech"});
 constexpr auto not_surfaces =
     std::to_array<string_view>({"l", "p", "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm",
@@ -103,13 +103,17 @@ class ObjReader {
       face(data);
     } else if (word == "o") {
       object_names_.push_back(printable(trim(rest), 10000));
+      group_material_ = Material::unknown;
       start_run(static_cast<uint32_t>(object_names_.size()), 0);
     } else if (word == "g") {
       const std::string name = trim(rest).empty() ? "default" : printable(trim(rest), 10000);
       const auto [known, added] =
           group_number_.try_emplace(name, static_cast<uint32_t>(group_names_.size() + 1));
       if (added) group_names_.push_back(name);
+      group_material_ = material_of_name(name);
       start_run(runs_.back().object, known->second);
+    } else if (word == "usemtl") {
+      used_material_ = material_of_name(trim(rest));
     } else if (std::find(not_surfaces.begin(), not_surfaces.end(), word) != not_surfaces.end()) {
       count_dropped(report_, "OBJ statement '" + std::string(word) + "'",
                     file_.name + ": line " + std::to_string(line_));
@@ -149,7 +153,8 @@ class ObjReader {
     if (corners == 0) throw error("a face without vertices");
     model_.ring_end.push_back(model_.ring_vertex.size());
     const auto line = static_cast<uint32_t>(std::min<uint64_t>(line_, std::numeric_limits<uint32_t>::max()));
-    model_.polygons.push_back({model_.ring_end.size(), line, Material::unknown});
+    const bool used = used_material_ != Material::unknown;
+    model_.polygons.push_back({model_.ring_end.size(), line, used ? used_material_ : group_material_});
     runs_.back().polygon_end = model_.polygons.size();
   }
 
@@ -201,6 +206,7 @@ class ObjReader {
   ImportReport& report_;
   RawModel model_;
   uint64_t line_ = 0;
+  Material used_material_ = Material::unknown, group_material_ = Material::unknown;  ///< what names say
   std::vector<std::string> object_names_, group_names_;
   std::unordered_map<std::string, uint32_t> group_number_;
   std::vector<Run> runs_{Run{}};

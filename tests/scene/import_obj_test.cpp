@@ -92,5 +92,15 @@ TEST_F(ImportObj, NationalGridCoordinatesKeepATenthOfAMillimetre) {
                 1e-5);
 }
 
+TEST_F(ImportObj, MaterialsAreWhatTheirNamesOrElseTheGroupsSay) {
+  const Scene scene = import("m.obj", two_squares +
+                                          "o house\nf 5 6 7 8\ng window_2\nf 1 2 6 5\ng upper\nf 2 3 7 6\n"
+                                          "usemtl door\nf 3 4 8 7\nusemtl c0ffee\nf 4 1 5 8\n")
+                          .scene;
+  EXPECT_EQ(scene.material,
+            (std::vector{Material::roof, Material::roof, Material::window, Material::window, Material::wall,
+                         Material::wall, Material::door, Material::door, Material::wall, Material::wall}));
+}
+
 }  // namespace
 }  // namespace veduta
