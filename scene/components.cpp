@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <numeric>
 #include <unordered_map>
+
+#include "scene/extent.h"
 
 namespace veduta {
 namespace {
@@ -95,6 +98,36 @@ bool may_be_taken_apart(const RawModel& model) {
          object.patches[0].polygon_end == model.polygons.size() && !model.polygons.empty();
 }
 
+// Twice the area, along the normal. Newell's method: corners need not be in a plane.
+glm::dvec3 normal_of(const RawModel& model, uint64_t polygon) {
+  const uint64_t ring = model.rings_before(polygon);
+  const uint64_t begin = model.corners_before(ring), end = model.ring_end[ring];
+  glm::dvec3 sum(0);
+  for (uint64_t i = begin; i < end; ++i) {
+    const glm::dvec3& origin = model.vertices[model.ring_vertex[begin]];
+    const glm::dvec3 a = model.vertices[model.ring_vertex[i]] - origin;
+    const glm::dvec3 b = model.vertices[model.ring_vertex[i + 1 < end ? i + 1 : begin]] - origin;
+    sum += glm::cross(a, b);
+  }
+  return sum;
+}
+
+// A surface without a wall or an overhang, more than half as wide and as deep as the model, and nothing lies
+// below it.
+bool is_ground(const RawModel& model, const RawObject& object, const Extent& all) {
+  constexpr double below_m = 0.5, least_cosine = 0.5;
+  const Extent own = own_extent(model, object);
+  if (own.lower.z > all.lower.z + below_m || 2 * (own.upper.x - own.lower.x) < all.upper.x - all.lower.x ||
+      2 * (own.upper.y - own.lower.y) < all.upper.y - all.lower.y)
+    return false;
+  for (const RawPatch& patch : object.patches)
+    for (uint64_t p = patch.polygon_begin; p < patch.polygon_end; ++p) {
+      const glm::dvec3 normal = normal_of(model, p);
+      if (normal.z < least_cosine * glm::length(normal)) return false;
+    }
+  return true;
+}
+
 }  // namespace
 
 void take_apart(RawModel& model) {
@@ -107,6 +140,7 @@ void take_apart(RawModel& model) {
   std::stable_sort(order.begin(), order.end(),
                    [&](uint64_t a, uint64_t b) { return component[a] < component[b]; });
   sort_polygons(model, order);
+  const Extent all = own_extent(model, model.objects[0]);
   const RawObject whole = std::move(model.objects[0]);
   model.objects.assign(count, {});
   uint64_t polygon = 0;
@@ -118,6 +152,7 @@ void take_apart(RawModel& model) {
     while (polygon < order.size() && component[order[polygon]] == i) ++polygon;
     patch.polygon_end = polygon;
     object.patches.push_back(std::move(patch));
+    if (is_ground(model, object, all)) object.kind = Kind::terrain;
   }
 }
 

@@ -137,8 +137,8 @@ ImportResult import_scene(const std::vector<std::filesystem::path>& files, const
   if (models.empty())
     throw bad_input(printable(files.front().string(), 1000), "whole model", "holds no surface");
   require_surfaces(models);
-  if (models.size() == 1 && !models.front().has_objects) take_apart(models.front());
   bring_to_frame(models, options);
+  if (models.size() == 1 && !models.front().has_objects) take_apart(models.front());
   if (options.unit_m == 0) require_size_of_city(models);
   if (auto ground = missing_ground(models)) {
     report.added.push_back(

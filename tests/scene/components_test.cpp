@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace veduta {
 namespace {
 
@@ -51,6 +53,30 @@ TEST(Components, ZeroAndMinusZeroAreOnePlace) {
   take_apart(model);
   ASSERT_EQ(model.objects.size(), 1u);
   EXPECT_EQ(model.objects[0].name, "soup");
+}
+
+TEST(Components, TheGroundBelowIsTerrain) {
+  const auto square = [](double size, double z) {
+    return std::vector<glm::dvec3>{{0, 0, z}, {size, 0, z}, {size, size, z + 1}, {0, size, z + 1}};
+  };
+  const auto kinds = [](RawModel model) {
+    take_apart(model);
+    std::vector<Kind> found;
+    for (const RawObject& object : model.objects) found.push_back(object.kind);
+    return found;
+  };
+  using Kinds = std::vector<Kind>;
+  EXPECT_EQ(kinds(model_of({square(60, 0), triangle(100, 5)})), (Kinds{Kind::terrain, Kind::building}));
+  EXPECT_EQ(kinds(model_of({square(40, 0), triangle(100, 5)})), (Kinds{Kind::building, Kind::building}))
+      << "small";
+  EXPECT_EQ(kinds(model_of({square(60, 10), triangle(100, 5)})), (Kinds{Kind::building, Kind::building}))
+      << "something is below it: a roof";
+  std::vector<glm::dvec3> down = square(60, 0);
+  std::reverse(down.begin(), down.end());
+  EXPECT_EQ(kinds(model_of({down, triangle(100, 5)})), (Kinds{Kind::building, Kind::building}));
+  const std::vector<glm::dvec3> wall = {{60, 0, 0}, {60, 60, 0}, {60, 60, 9}, {60, 0, 9}};
+  EXPECT_EQ(kinds(model_of({square(60, 0), wall, triangle(100, 5)})),
+            (Kinds{Kind::building, Kind::building}));
 }
 
 TEST(Components, WhatStaysWhole) {

@@ -169,6 +169,31 @@ TEST_F(ImportFolder, AModelWithoutSurfacesAmongOthersIsCounted) {
   expect_refused(directory_ / "b.obj", "b.obj: whole file: holds no surface");
 }
 
+// The toys of all formats: a street or two, six to eight buildings, heights of 4 to 12 m.
+TEST_F(ImportFolder, EveryFormatIsRead) {
+  const fs::path formats = VEDUTA_TEST_DATA "/formats";
+  const std::vector<std::pair<std::string, std::string>> examples = {{"blocks.dxf", "DXF"},
+                                                                     {"citygml.gml", "CityGML 2.0"},
+                                                                     {"instances.gltf", "glTF 2.0"},
+                                                                     {"plan.dxf", "DXF"},
+                                                                     {"plan.geojson", "GeoJSON"},
+                                                                     {"plan.shp", "ESRI Shapefile"},
+                                                                     {"soup.off", "OFF"},
+                                                                     {"soup.ply", "PLY"},
+                                                                     {"tiles/tileset.json", "3D Tiles"},
+                                                                     {"toy.glb", "glTF 2.0"}};
+  for (const auto& [name, format] : examples) {
+    const ImportResult result = import_scene({formats / name});
+    expect_consistent(written_out(result.scene));
+    EXPECT_TRUE(result.report.format.starts_with(format)) << result.report.format;
+    EXPECT_GE(result.report.objects_by_kind.at("building"), 6u) << name;
+    const glm::vec3 size = 2.0f * result.scene.bounds().half_extent();
+    EXPECT_LE(std::max(size.x, size.y), 60.001f) << name;
+    EXPECT_GE(size.z, 10.0f) << name;
+    EXPECT_LE(size.z, 13.0f) << name;
+  }
+}
+
 TEST_F(ImportFolder, Lyon) {
   const fs::path archive = VEDUTA_SHARED_DATA "/lyon_3dtiles/lyon_3dtiles.tar.xz";
   if (!fs::exists(archive)) GTEST_SKIP() << archive << " is not here";

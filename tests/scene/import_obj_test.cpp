@@ -38,11 +38,11 @@ TEST_F(ImportObj, GroupsAloneAreObjectsAndWithoutThemComponentsAre) {
   EXPECT_EQ(groups.objects[0].triangle_end, 2u);
   EXPECT_EQ(groups.objects[1].name, "two");
   EXPECT_TRUE(groups.parts.empty());
-  const Scene plain = import("chapel.obj", two_squares + "f 1 2 3\nf 5 6 7\n").scene;
+  const Scene plain = import("chapel.obj", two_squares + "f 1 2 6\nf 3 4 8\n").scene;
   ASSERT_EQ(plain.objects.size(), 2u);
   EXPECT_EQ(plain.objects[0].name, "chapel/1");
   EXPECT_EQ(plain.objects[1].name, "chapel/2");
-  const Scene connected = import("chapel.obj", two_squares + "f 1 2 3\nf 5 6 7\nf 1 2 6 5\n").scene;
+  const Scene connected = import("chapel.obj", two_squares + "f 1 2 6\nf 3 4 8\nf 1 2 3\n").scene;
   ASSERT_EQ(connected.objects.size(), 1u);
   EXPECT_EQ(connected.objects[0].name, "chapel");
 }
