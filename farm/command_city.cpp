@@ -37,8 +37,9 @@ int run_city(const Options& options, Verbosity verbosity) {
   city::CitySettings settings = city::load_city_settings(options.config);
   if (options.seed) settings.seed = *options.seed;
   Progress progress(verbosity == Verbosity::quiet);
-  const city::MadeCity made =
-      city::make_city(settings, [&](const std::string& stage) { progress.note(stage); });
+  const city::MadeCity made = city::make_city(
+      settings, [&](uint64_t done, uint64_t total) { progress.work("deriving buildings", done, total); });
+  progress.clear();
   note_plan(made, progress);
   const city::CityModel& model = made.model;
   progress.note(fmt::format("writing {}", options.out.string()));

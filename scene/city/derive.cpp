@@ -5,8 +5,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <mutex>
 #include <numeric>
 
 #include "scene/city/courses.h"
@@ -177,7 +179,8 @@ Mesh derive_building(const BuildingPlan& plan, const RuleSet& rules) {
   return mesh;
 }
 
-CityModel build_city(const CityPlan& plan, const std::vector<RuleSet>& styles) {
+CityModel build_city(const CityPlan& plan, const std::vector<RuleSet>& styles,
+                     const std::function<void(uint64_t done, uint64_t total)>& progress) {
   CityModel city;
   city.crs = plan.crs;
   city.sites = plan.sites;
@@ -196,12 +199,17 @@ CityModel build_city(const CityPlan& plan, const std::vector<RuleSet>& styles) {
     BuildingDeriver deriver;
     Mesh mesh;
   };
+  std::atomic<uint64_t> done{0};
+  std::mutex reporting;
   tbb::enumerable_thread_specific<Scratch> scratch;
   tbb::parallel_for(size_t{0}, plan.buildings.size(), [&](size_t i) {
     const BuildingPlan& building = plan.buildings[i];
     Scratch& mine = scratch.local();
     mine.deriver.derive(building, styles[building.style], layers[building.style], mine.mesh);
     city.meshes[i] = mine.mesh;  // a copy takes no more memory than it needs
+    ++done;
+    if (const std::unique_lock mine_to_say(reporting, std::try_to_lock); progress && mine_to_say)
+      progress(done, plan.buildings.size());
   });
   return city;
 }

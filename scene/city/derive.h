@@ -1,6 +1,7 @@
 // From plans and rules to buildings (thesis A.2).
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "scene/city/city_model.h"
@@ -17,7 +18,8 @@ Mesh derive_building(const BuildingPlan& plan, const RuleSet& rules);
 
 /// Derives every building of a plan, on all cores; any number of them gives the same model. Layers that
 /// styles have in common are one. \pre BuildingPlan::style < styles.size()
-/// \throw Error as derive_building does
-CityModel build_city(const CityPlan& plan, const std::vector<RuleSet>& styles);
+/// \param progress is called now and then, from one thread at a time \throw Error as derive_building does
+CityModel build_city(const CityPlan& plan, const std::vector<RuleSet>& styles,
+                     const std::function<void(uint64_t done, uint64_t total)>& progress = {});
 
 }  // namespace veduta::city

@@ -1,7 +1,5 @@
 #include "scene/city/make_city.h"
 
-#include <fmt/format.h>
-
 #include <chrono>
 #include <numeric>
 
@@ -43,7 +41,8 @@ CityPlan plan_of(const CitySettings& settings, const WallHeight& wall_height_m, 
 
 }  // namespace
 
-MadeCity make_city(const CitySettings& settings, const std::function<void(const std::string&)>& stage) {
+MadeCity make_city(const CitySettings& settings,
+                   const std::function<void(uint64_t done, uint64_t total)>& progress) {
   MadeCity city;
   const Clock::time_point begin = Clock::now();
   std::vector<RuleSet> rules;
@@ -52,12 +51,10 @@ MadeCity make_city(const CitySettings& settings, const std::function<void(const 
     const std::vector<double> heights = floor_heights_m(rules[style], floors, 0);
     return std::accumulate(heights.begin(), heights.end(), 0.0);
   };
-  stage("planning");
   const CityPlan plan = plan_of(settings, wall_height_m, city);
   city.plan_s = since(begin);
-  stage(fmt::format("deriving {} buildings for {} sites", plan.buildings.size(), plan.sites.size()));
   const Clock::time_point derive_begin = Clock::now();
-  city.model = build_city(plan, rules);
+  city.model = build_city(plan, rules, progress);
   city.derive_s = since(derive_begin);
   return city;
 }

@@ -17,9 +17,10 @@ struct MadeCity {
   double plan_s = 0, derive_s = 0;
 };
 
-/// Reads styles and plan, plans, and derives every building. \param stage is called with what is about to
-/// happen: "deriving 6,144 buildings". The same settings and files give the same city.
+/// Reads styles and plan, plans, and derives every building. The same settings and files give the same city.
+/// \param progress is called now and then, from one thread at a time, with the buildings that are derived
 /// \throw Error(bad_input) for a plan, a style or a terminal that cannot be used
-MadeCity make_city(const CitySettings& settings, const std::function<void(const std::string&)>& stage);
+MadeCity make_city(const CitySettings& settings,
+                   const std::function<void(uint64_t done, uint64_t total)>& progress = {});
 
 }  // namespace veduta::city

@@ -21,10 +21,6 @@ std::string bytes_of(const std::filesystem::path& file) {
   return text.str();
 }
 
-MadeCity made(const CitySettings& settings) {
-  return make_city(settings, [](const std::string&) {});
-}
-
 class MakeCity : public TemporaryModels {
  protected:
   CitySettings parse(const std::string& text) const {
@@ -32,7 +28,7 @@ class MakeCity : public TemporaryModels {
   }
   void expect_refused(const std::string& text, const std::string& says) const {
     try {
-      made(parse(text));
+      make_city(parse(text));
       ADD_FAILURE() << "accepted: " << text;
     } catch (const Error& error) {
       EXPECT_EQ(error.status(), ExitStatus::bad_input) << error.what();
@@ -48,21 +44,32 @@ TEST_F(MakeCity, TheSameConfigurationGivesTheSameBytesWithAnyNumberOfThreads) {
   std::string first;
   for (const size_t threads : {1u, 2u, 7u}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    write_model(made(settings).model, directory_ / "small.obj");
+    write_model(make_city(settings).model, directory_ / "small.obj");
     const std::string bytes = bytes_of(directory_ / "small.obj");
     if (first.empty()) first = bytes;
     EXPECT_TRUE(bytes == first) << threads << " threads";
   }
   CitySettings other = settings;
   other.seed = settings.seed + 1;
-  write_model(made(other).model, directory_ / "other.obj");
+  write_model(make_city(other).model, directory_ / "other.obj");
   EXPECT_FALSE(bytes_of(directory_ / "other.obj") == first) << "another seed";
+}
+
+TEST_F(MakeCity, ProgressGrowsToTheNumberOfBuildings) {
+  std::vector<uint64_t> reported;
+  make_city(load_city_settings(city_configs / "thesis_small.toml"), [&](uint64_t done, uint64_t total) {
+    EXPECT_EQ(total, 96u);
+    reported.push_back(done);
+  });
+  ASSERT_FALSE(reported.empty());
+  EXPECT_TRUE(std::is_sorted(reported.begin(), reported.end()));
+  EXPECT_LE(reported.back(), 96u);
 }
 
 TEST_F(MakeCity, ThesisCitiesHaveTheirBuildings) {
   const std::map<std::string, size_t> buildings{{"thesis_small", 96}, {"thesis_medium", 1024}};
   for (const auto& [name, count] : buildings) {
-    const MadeCity city = made(load_city_settings(city_configs / (name + ".toml")));
+    const MadeCity city = make_city(load_city_settings(city_configs / (name + ".toml")));
     EXPECT_EQ(city.model.sites.size(), count);
     std::map<std::string, int> styles;
     for (const std::string& style : city.model.styles) ++styles[style];
@@ -77,7 +84,7 @@ TEST_F(MakeCity, ThesisCitiesHaveTheirBuildings) {
 
 // What the three formats say of one city: CityJSON has instances, OBJ is flat, DXF has blocks.
 TEST_F(MakeCity, EveryFormatReadsBackAsTheSameCity) {
-  const MadeCity city = made(load_city_settings(VEDUTA_TEST_DATA "/formats/generated.toml"));
+  const MadeCity city = make_city(load_city_settings(VEDUTA_TEST_DATA "/formats/generated.toml"));
   const size_t count = city.model.sites.size();
   for (const char* const name : {"generated.city.json", "generated.obj", "generated.dxf"}) {
     write_model(city.model, directory_ / name);
@@ -105,7 +112,7 @@ TEST_F(MakeCity, EveryFormatReadsBackAsTheSameCity) {
 }
 
 TEST_F(MakeCity, TheExamplesAreWhatTheirConfigurationGives) {
-  const MadeCity city = made(load_city_settings(VEDUTA_TEST_DATA "/formats/generated.toml"));
+  const MadeCity city = make_city(load_city_settings(VEDUTA_TEST_DATA "/formats/generated.toml"));
   for (const char* const name : {"generated.city.json", "generated.obj", "generated.dxf"}) {
     write_model(city.model, directory_ / name);
     EXPECT_TRUE(bytes_of(directory_ / name) == bytes_of(std::string(VEDUTA_TEST_DATA "/formats/") + name))
@@ -119,7 +126,7 @@ TEST_F(MakeCity, ASelfCrossingFootprintIsMendedAndSaid) {
   {"type":"Feature","properties":{"floors":3},"geometry":{"type":"Polygon","coordinates":
     [[[1842000,5175000],[1842010,5175010],[1842010,5175000],[1842000,5175010],[1842000,5175000]]]}}]})");
   const MadeCity city =
-      made(parse("[plan]\nfile = \"" + (directory_ / "plan.geojson").string() + "\"\n" + rules));
+      make_city(parse("[plan]\nfile = \"" + (directory_ / "plan.geojson").string() + "\"\n" + rules));
   EXPECT_EQ(city.model.sites.size(), 2u) << "a bow tie is two triangles";
   EXPECT_FALSE(city.report.dropped.empty());
 }
@@ -146,7 +153,7 @@ class LyonPlan : public testing::Test {
     settings.footprints.use_floors = use[0];
     settings.footprints.use_heights = use[1];
     settings.footprints.use_ground = use[2];
-    return made(settings);
+    return make_city(settings);
   }
 
   static void expect_same(const MadeCity& a, const MadeCity& b) {
