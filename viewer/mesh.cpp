@@ -28,11 +28,15 @@ Mesh make_mesh(const Scene& scene) {
     const Object& object = scene.objects[o];
     const float foot_m = scene.bounds(o).lower.z;
     known.clear();
+    const auto first = scene.material.begin() + static_cast<ptrdiff_t>(object.triangle_begin);
+    const auto last = scene.material.begin() + static_cast<ptrdiff_t>(object.triangle_end);
+    const bool windows = std::find(first, last, Material::window) != last;
     for (uint64_t t = object.triangle_begin; t < object.triangle_end; ++t) {
       glm::uvec3 corner;
       for (int i = 0; i < 3; ++i) {
         const uint32_t vertex = scene.triangles[t][i];
-        const auto material = static_cast<uint8_t>(scene.material[t]);
+        const bool plain = windows && scene.material[t] <= Material::wall;
+        const uint8_t material = plain ? plain_wall : static_cast<uint8_t>(scene.material[t]);
         const auto [place, fresh] =
             known.try_emplace(uint64_t{vertex} << 8 | material, static_cast<uint32_t>(mesh.vertices.size()));
         if (fresh) {

@@ -12,11 +12,14 @@ namespace veduta {
 /// A vertex shared by triangles of several materials or objects becomes several.
 struct MeshVertex {
   glm::vec3 position_m{0};
-  uint8_t material = 0;    ///< Material
+  uint8_t material = 0;    ///< Material, or plain_wall
   uint8_t tint = 0;        ///< an even spread over the objects: neighbours differ in shade
   uint16_t height_cm = 0;  ///< above the foot of the building; far up for everything else
 };
 static_assert(sizeof(MeshVertex) == 16);
+
+/// A wall of an object that has windows of its own: none are drawn on it.
+constexpr uint8_t plain_wall = 16;
 
 struct Mesh {
   std::vector<MeshVertex> vertices;

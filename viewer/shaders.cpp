@@ -65,11 +65,13 @@ float stripe(float at, float low, float high) {
   return covered / width;
 }
 
+vec3 plain_wall() { return (0.86 + 0.28 * float(kind.y & 31u) / 31.0) * walls[kind.y >> 5]; }
+
 vec3 wall_colour(vec3 normal) {
   // Windows by storey stand for the texture that the model lacks: without them, a wall gives the eyes nothing to converge on.
   vec2 along = normalize(vec2(-normal.y, normal.x) + vec2(0.0, 1e-6));
   float window = stripe(dot(offset_m.xy + eye_m.xy, along) / 2.4, 0.30, 0.70) * stripe(height_m / 3.0, 0.30, 0.78);
-  vec3 plain = (0.86 + 0.28 * float(kind.y & 31u) / 31.0) * walls[kind.y >> 5];
+  vec3 plain = plain_wall();
   return mix(plain, 0.35 * plain + vec3(0.03, 0.04, 0.06), 0.6 * window * step(abs(normal.z), 0.2));
 }
 
@@ -78,6 +80,7 @@ vec3 albedo(vec3 normal) {
   vec2 place_m = offset_m.xy + eye_m.xy;
   float shade = 0.88 + 0.24 * float(kind.y & 31u) / 31.0;
   if (material <= 1u) return wall_colour(normal);
+  if (material == 16u) return plain_wall();
   if (material == 2u)
     return shade * (abs(normal.z) > 0.97 ? vec3(0.24, 0.23, 0.22)
                                          : mix(vec3(0.36, 0.12, 0.07), vec3(0.20, 0.11, 0.09), float(kind.y >> 7)));
