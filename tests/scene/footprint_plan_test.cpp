@@ -79,7 +79,7 @@ TEST(FootprintPlan, TakesFloorsAndHeightsFromThePlan) {
   EXPECT_EQ(toy.plan.buildings[2].height_m, 9.2);
   EXPECT_EQ(toy.plan.buildings[3].floors, 7);
   EXPECT_EQ(toy.plan.buildings[3].height_m, 0) << "the style's floors add up";
-  const auto& [least, most] = toy_options().styles[toy.plan.buildings[0].style].floors;
+  const auto [least, most] = toy_options().styles[toy.plan.buildings[0].style].floors;
   EXPECT_GE(toy.plan.buildings[0].floors, least);
   EXPECT_LE(toy.plan.buildings[0].floors, most);
   EXPECT_EQ(toy.counts.floors_stated, 2u);
