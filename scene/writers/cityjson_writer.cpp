@@ -2,51 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "scene/names.h"
+#include "scene/writers/cityjson_names.h"
 
 namespace veduta::city {
 namespace {
-
-std::string quoted(const std::string& text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-const char* object_type(Kind kind) {
-  switch (kind) {
-    case Kind::building:
-      return "Building";
-    case Kind::terrain:
-      return "TINRelief";
-    case Kind::road:
-      return "Road";
-    case Kind::water:
-      return "WaterBody";
-    case Kind::vegetation:
-      return "PlantCover";
-    default:
-      return "LandUse";
-  }
-}
-
-/// Empty where CityJSON has no word: an importer decides by the direction that the face looks into.
-std::string surface_type(const std::string& layer) {
-  switch (material_of_name(layer)) {
-    case Material::wall:
-      return "WallSurface";
-    case Material::roof:
-      return "RoofSurface";
-    case Material::ground:
-      return "GroundSurface";
-    case Material::window:
-      return "Window";
-    case Material::door:
-      return "Door";
-    default:
-      return "";
-  }
-}
 
 class CityJsonWriter {
  public:
@@ -251,15 +211,6 @@ class CityJsonWriter {
 };
 
 }  // namespace
-
-std::string reference_system(const std::string& crs) {
-  const std::string urn = "urn:ogc:def:crs:EPSG::";
-  for (const std::string& prefix : {urn, std::string("EPSG:")})
-    if (crs.size() > prefix.size() && crs.starts_with(prefix) &&
-        crs.find_first_not_of("0123456789", prefix.size()) == std::string::npos)
-      return "https://www.opengis.net/def/crs/EPSG/0/" + crs.substr(prefix.size());
-  return crs;
-}
 
 void write_cityjson(const WrittenCity& city, OrderedOutput& output) {
   CityJsonWriter(city, output).write();

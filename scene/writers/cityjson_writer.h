@@ -11,7 +11,4 @@ namespace veduta::city {
 /// TINRelief, "road" a Road, "water" a WaterBody, other ground LandUse. Vertices are whole quanta.
 void write_cityjson(const WrittenCity& city, OrderedOutput& output);
 
-/// "EPSG:3946" and its URN as the URL that CityJSON asks for; anything else as it is.
-std::string reference_system(const std::string& crs);
-
 }  // namespace veduta::city

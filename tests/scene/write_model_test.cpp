@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "scene/error.h"
-#include "scene/writers/cityjson_writer.h"
+#include "scene/writers/cityjson_names.h"
 #include "scene/writers/dxf_writer.h"
 #include "tests/scene/temporary_models.h"
 #include "tests/scene/toy_city_model.h"
