@@ -19,6 +19,7 @@ constexpr uint64_t always_allowed_bytes = 16'000'000;
 constexpr uint64_t largest_ratio = 100;      // text packs to a tenth; what packs better is no model
 constexpr uint64_t bytes_of_an_entry = 512;  // a million empty entries are not free either
 constexpr size_t block_bytes = 1 << 20;
+constexpr size_t longest_path = 4096;  // as on disk
 
 using Archive = std::unique_ptr<archive, int (*)(archive*)>;
 
@@ -67,6 +68,9 @@ class Unpacker {
     count(bytes_of_an_entry, shown);
     if (archive_entry_is_encrypted(entry))
       throw bad_input(name_, shown, "is encrypted; unpack the archive and give the folder");
+    if (path.size() > longest_path)
+      throw bad_input(name_, shown,
+                      fmt::format("its path is longer than {} bytes; pack the archive again", longest_path));
     const std::filesystem::path normal = std::filesystem::path(path).lexically_normal();
     if (path.empty() || normal.is_absolute() || *normal.begin() == "..")
       throw bad_input(name_, shown,

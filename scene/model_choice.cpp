@@ -54,23 +54,31 @@ class Chooser {
     return fs::path(name).parent_path().generic_string();
   }
 
-  // What `from` refers to, and what that refers to: tilesets of tilesets. A loop ends, as each is read once.
-  void follow(const std::string& from) {
-    if (!followed_.insert(from).second) return;
-    std::string content;
-    try {
-      content = files_.read(from).content();
-    } catch (const Error&) {
-      return;  // its reader will say so
+  // What `first` refers to, and what that refers to: tilesets of tilesets. A loop ends, as each is read once;
+  // a chain may be as long as there are files.
+  void follow(const std::string& first) {
+    std::vector<std::string> waiting{first};
+    while (!waiting.empty()) {
+      const std::string from = std::move(waiting.back());
+      waiting.pop_back();
+      if (!followed_.insert(from).second) continue;
+      for (const std::string& reference : references_of(from)) {
+        const auto name = ModelFiles::resolve(from, reference);
+        if (!name || *name == from) continue;
+        referred_.insert(*name);
+        const std::string extension = extension_of(*name);
+        if (std::binary_search(files_.names().begin(), files_.names().end(), *name) &&
+            (extension == ".json" || extension == ".gltf"))
+          waiting.push_back(*name);
+      }
     }
-    for (const std::string& reference : references_of_json(content)) {
-      const auto name = ModelFiles::resolve(from, reference);
-      if (!name || *name == from) continue;
-      referred_.insert(*name);
-      const std::string extension = extension_of(*name);
-      if (std::binary_search(files_.names().begin(), files_.names().end(), *name) &&
-          (extension == ".json" || extension == ".gltf"))
-        follow(*name);
+  }
+
+  std::vector<std::string> references_of(const std::string& from) const {
+    try {
+      return references_of_json(files_.read(from).content());
+    } catch (const Error&) {
+      return {};  // its reader will say so
     }
   }
 

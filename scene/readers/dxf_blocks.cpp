@@ -118,15 +118,17 @@ uint64_t DxfBlocks::polygons_of(const DxfBlock& block, const DxfInsert& from, Im
   if (!added && known->second == unfinished)
     throw error(from,
                 "block '" + printable(block.name, 60) + "' is inserted into itself; remove that insert");
-  if (!added) return known->second;
-  if (depth > max_depth)
+  // Of a block that is known, what is in it counts as well: it may have been met from its other end.
+  if (depth + (added ? 0 : blocks_[number].levels) > max_depth)
     throw error(from,
                 "blocks are nested more than " + std::to_string(max_depth) + " deep; explode some of them");
+  if (!added) return known->second;
   uint64_t count = block.polygon_end - block.polygon_begin;
   for (const DxfInsert& insert : block.inserts) {
     const DxfBlock* inner = find(insert, report);
     if (!inner) continue;
     const uint64_t each = polygons_of(*inner, insert, report, depth + 1);
+    blocks_[number].levels = std::max(blocks_[number].levels, inner->levels + 1);
     const uint64_t copies = insert.rows * insert.columns;  // at most 2^30
     if (each != 0 && copies > max_copied_polygons / each)
       throw error(insert, "asks for more than 20 million polygons by nested inserts; export fewer copies");

@@ -37,6 +37,7 @@ struct DxfBlock {
   bool external = false;    ///< its content is in another file
   bool on_layer_0 = false;  ///< some of its polygons; set by DxfBlocks::add
   uint64_t polygon_begin = 0, polygon_end = 0;
+  int levels = 0;  ///< of blocks in blocks below it; set as its polygons are counted
   std::vector<DxfInsert> inserts;
 };
 

@@ -22,6 +22,7 @@ namespace veduta {
 namespace {
 
 constexpr int deepest = 64;                        // tilesets in tilesets, composites in composites
+constexpr int deepest_tile = 1000;                 // below the root of the first tileset
 constexpr uint64_t bytes_at_a_time = 16'000'000;   // of tiles that are parsed together
 constexpr uint64_t most_repeated = 1'000'000'000;  // bytes of content that several tiles show
 
@@ -59,7 +60,7 @@ class TilesReader {
       on_globe_ = tileset.on_globe;
       visited_.insert(path);
       visit(tileset.root,
-            {glm::dmat4(1), tileset.z_up_from_gltf, "", kind_of_path(file_.name, Kind::building), 0});
+            {glm::dmat4(1), tileset.z_up_from_gltf, "", kind_of_path(file_.name, Kind::building), 0, 0});
     }
     parse_pending();
     if (on_globe_) to_geographic(model_);
@@ -73,13 +74,17 @@ class TilesReader {
     glm::dmat4 z_up_from_gltf{1};
     std::string folder;  // of its tileset, relative to the first one's
     Kind kind = Kind::building;
-    int depth = 0;
+    int depth = 0;  // of the tileset
+    int level = 0;  // of the tile, in all tilesets
   };
 
   std::string where(const std::string& path) const { return file_.name + ": " + printable(path); }
 
   // Whether any content was found for the tile or below.
   bool visit(const Tile& tile, Place place) {
+    if (++place.level > deepest_tile)
+      throw bad_input(file_.name, "tiles",
+                      "nest deeper than " + std::to_string(deepest_tile) + " levels; cut the tileset");
     place.world_from_parent = place.world_from_parent * tile.parent_from_tile;
     bool below = false;
     for (const Tile& child : tile.children) below |= visit(child, place);
@@ -125,7 +130,7 @@ class TilesReader {
       throw bad_input(file.name, "file", "tilesets nested deeper than " + std::to_string(deepest));
     const Tileset tileset = read_tileset(file);
     return visit(tileset.root, {place.world_from_parent, tileset.z_up_from_gltf, folder_of(path),
-                                kind_of_path(path, place.kind), place.depth + 1});
+                                kind_of_path(path, place.kind), place.depth + 1, place.level});
   }
 
   bool add_content(TileContent content, int depth) {

@@ -399,6 +399,9 @@ TEST(Dxf, BadFilesAreNamedByLine) {
   }
   EXPECT_NE(refusal(entities(" 0 INSERT 2 B40", blocks(doubling))).find("20 million"), std::string::npos);
   EXPECT_NE(refusal(entities(" 0 INSERT 2 B100", blocks(deep))).find("64 deep"), std::string::npos);
+  // The same when what is below is known already.
+  const std::string from_below = " 0 INSERT 2 B50 0 INSERT 2 B100";
+  EXPECT_NE(refusal(entities(from_below, blocks(deep))).find("64 deep"), std::string::npos);
 }
 
 // A block that nobody inserts may hold itself: nobody asks.

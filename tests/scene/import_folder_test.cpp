@@ -58,6 +58,17 @@ TEST_F(ImportFolder, EachFileIsAnObjectInTheOrderOfNames) {
   EXPECT_NE(describe(result).find("3 files"), std::string::npos);
 }
 
+// Each refers to the next one: a chain is as long as there are files.
+TEST_F(ImportFolder, TilesetsInAChain) {
+  std::vector<ArchiveEntry> entries;
+  for (int i = 0; i < 20'000; ++i)
+    entries.push_back({(i == 0 ? "tileset" : "t" + std::to_string(i)) + ".json",
+                       R"({"asset":{"version":"1.0"},"geometricError":1,"root":{"content":{"uri":"t)" +
+                           std::to_string(i + 1) + R"(.json"}}})"});
+  write_archive(directory_ / "chain.zip", entries);
+  expect_refused(directory_ / "chain.zip", "tilesets nested deeper than 64");
+}
+
 TEST_F(ImportFolder, TheSameWithAnyNumberOfThreadsAndFromAnArchive) {
   std::vector<ArchiveEntry> entries;
   for (int i = 0; i < 60; ++i) {

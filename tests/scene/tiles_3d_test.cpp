@@ -225,6 +225,17 @@ TEST(Tiles3d, TilesOnTheGlobeComeInLongitudeAndLatitude) {
   }
 }
 
+// Each as deep as JSON may be, and each refers to the next one.
+TEST(Tiles3d, TilesNestedThroughManyTilesets) {
+  Files files;
+  for (int i = 0; i < 4; ++i) {
+    std::string tile = R"({"content":{"uri":"t)" + std::to_string(i + 1) + R"(.json"}})";
+    for (int level = 0; level < 400; ++level) tile = R"({"children":[)" + tile + "]}";
+    files[i == 0 ? "tileset.json" : "t" + std::to_string(i) + ".json"] = tileset(tile);
+  }
+  expect_refused([&] { read(files); }, "tileset.json: tiles: nest deeper than 1000 levels");
+}
+
 TEST(Tiles3d, BadTilesets) {
   const std::pair<std::string, std::string> table[] = {
       {"{", "tileset.json: JSON: "},
