@@ -16,6 +16,16 @@
 namespace veduta {
 namespace {
 
+// What is wrong with a CRS, or with coordinates in it, is wrong with the file.
+template <class Work>
+auto of_file(const RawModel& model, const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    throw Error(error.status(), model.file + ": " + error.what());
+  }
+}
+
 // What a CRS says of its coordinates' units.
 struct CrsUnit {
   bool metres = true;    // else degrees or feet: x and y are projected to metres, not scaled
@@ -48,10 +58,11 @@ class Projector {
   void project(RawModel& model) {
     if (model.crs == to_) return;
     auto [found, added] = from_.try_emplace(model.crs);
-    if (added && !same_crs(model.crs, to_)) found->second.emplace(model.crs, to_);
+    if (added && !of_file(model, [&] { return same_crs(model.crs, to_); }))
+      of_file(model, [&] { found->second.emplace(model.crs, to_); });
     if (found->second) {
       if (!model.placements.empty()) flatten_instances(model);
-      found->second->apply(model.vertices);
+      of_file(model, [&] { found->second->apply(model.vertices); });
     }
     model.crs = to_;
   }
@@ -77,8 +88,10 @@ std::string scene_crs(const std::vector<RawModel>& models, const ImportOptions& 
     extent.extend(own.upper);
   }
   glm::dvec3 middle = 0.5 * (extent.lower + extent.upper);
-  if (!is_geographic(crs)) CrsTransform(crs, "EPSG:4326").apply({&middle, 1});
-  return utm_zone(middle.x, middle.y);
+  return of_file(*first, [&] {
+    if (!is_geographic(crs)) CrsTransform(crs, "EPSG:4326").apply({&middle, 1});
+    return utm_zone(middle.x, middle.y);
+  });
 }
 
 }  // namespace
@@ -87,7 +100,7 @@ void bring_to_frame(std::vector<RawModel>& models, const ImportOptions& options)
   std::map<std::string, CrsUnit> units;  // a city may have 50,000 files
   for (RawModel& model : models) {
     const auto [known, added] = units.try_emplace(model.crs.empty() ? options.crs : model.crs);
-    if (added) known->second = unit_of(known->first);
+    if (added) known->second = of_file(model, [&] { return unit_of(known->first); });
     turn_and_scale(model, options, known->second);
   }
   const std::string crs = scene_crs(models, options);

@@ -30,7 +30,8 @@ TEST_F(BadInput, Files) {
   expect_refused(write("empty.obj", ""), "file: is empty");
   ASSERT_EQ(mkfifo((directory_ / "pipe.obj").c_str(), 0600), 0);
   expect_refused(directory_ / "pipe.obj", "file: is not a regular file");
-  expect_refused(write("city.gml", "<?xml version=\"1.0\"?>\n<CityModel/>"), "line 2: the root is 'CityModel'");
+  expect_refused(write("city.gml", "<?xml version=\"1.0\"?>\n<CityModel/>"),
+                 "line 2: the root is 'CityModel'");
   expect_refused(write("image.png", "\x89PNG\r\n\x1a\n"), "line 1: neither");
   expect_refused(write("blank.txt", " \n\n"), "line 1: neither");
 }
@@ -41,6 +42,13 @@ TEST_F(BadInput, SmallFilesByName) {
   expect_refused(cases / "import_nan_vertex/tower.obj", "line 3: coordinate 'nan'");
   expect_refused(cases / "import_empty_scene/city.json", "whole file: holds no surface");
   expect_refused(cases / "import_flat_polygon/city.json", "whole file: none of its 1 polygons");
+}
+
+TEST_F(BadInput, CrsOfAFile) {
+  std::string text =
+      cityjson(object("a", "Building", geometry("Solid", "[" + cube_faces + "]")), cube_vertices);
+  text.replace(text.find("7415"), 4, "99");
+  expect_refused(write("crs.json", text), "CRS: ");
 }
 
 TEST_F(BadInput, ObjLines) {
