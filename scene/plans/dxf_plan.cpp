@@ -77,7 +77,7 @@ void add_layers(const std::vector<Drawn>& drawing, const std::string& file, Foot
   for (const auto& [layer, numbers] : lines) {
     std::vector<FlatRing> rings;
     for (const size_t i : numbers) rings.push_back(drawing[i].line);
-    for (const std::vector<size_t>& polygon : nest_rings(rings))
+    for (const std::vector<size_t>& polygon : nest_rings(rings, file + ": layer " + printable(layer)))
       for (const size_t ring : polygon) polygon_of[numbers[polygon[0]]].push_back(rings[ring]);
   }
   for (size_t i = 0; i < drawing.size(); ++i) {

@@ -17,6 +17,8 @@ namespace {
 // Rings of neighbours share edges but for rounding: what counts as inside may stick out by this part of its
 // area.
 constexpr double tolerance = 0.01;
+// Comparing two areas is dear, and all of n rings in one another are n^2 of them.
+constexpr size_t always_allowed = 20'000, allowed_for_each = 5;
 
 struct Item {
   std::unique_ptr<OGRGeometry> area;  // of the ring, valid
@@ -67,7 +69,6 @@ bool may_be_inside(const Item& inner, const Item& outer) {
 }
 
 bool inside(const Item& inner, const Item& outer) {
-  if (!may_be_inside(inner, outer)) return false;
   const std::unique_ptr<OGRGeometry> shared(inner.area->Intersection(outer.area.get()));
   return shared && area_of(*shared) >= (1 - tolerance) * inner.size;
 }
@@ -76,7 +77,8 @@ bool same(const Item& a, const Item& b) {
   return std::abs(a.size - b.size) <= tolerance * std::max(a.size, b.size);
 }
 
-void find_around(std::vector<Item>& items) {
+void find_around(std::vector<Item>& items, const std::string& place) {
+  size_t left = always_allowed + allowed_for_each * items.size();
   CPLRectObj all{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
                  -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const Item& item : items) {
@@ -96,7 +98,14 @@ void find_around(std::vector<Item>& items) {
     void** found = CPLQuadTreeSearch(tree.get(), &box, &count);
     for (int i = 0; i < count; ++i) {
       Item& other = *static_cast<Item*>(found[i]);
-      if (&other == &item || !inside(item, other)) continue;
+      if (&other == &item || !may_be_inside(item, other)) continue;
+      if (left-- == 0) {
+        CPLFree(found);
+        throw Error(ExitStatus::bad_input, place +
+                                               ": its closed lines lie in one another too often for "
+                                               "buildings and courtyards; leave this layer out");
+      }
+      if (!inside(item, other)) continue;
       if (same(item, other)) {
         item.equals.push_back(&other);
       } else {
@@ -146,12 +155,12 @@ void give_roles(std::vector<Item>& items) {
 
 }  // namespace
 
-std::vector<std::vector<size_t>> nest_rings(const std::vector<FlatRing>& rings) {
+std::vector<std::vector<size_t>> nest_rings(const std::vector<FlatRing>& rings, const std::string& place) {
   const GdalErrors errors;
   std::vector<Item> items;
   items.reserve(rings.size());
   for (size_t i = 0; i < rings.size(); ++i) items.push_back(item_of(rings[i], i));
-  if (!items.empty()) find_around(items);
+  if (!items.empty()) find_around(items, place);
   give_roles(items);
   std::vector<std::vector<size_t>> holes(items.size()), polygons;
   for (const Item& item : items)

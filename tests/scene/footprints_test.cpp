@@ -287,22 +287,32 @@ TEST(Footprints, NestedRings) {
     return FlatRing{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
   };
   using Polygons = std::vector<std::vector<size_t>>;
-  EXPECT_EQ(nest_rings({}), Polygons{});
+  const auto nested = [](const std::vector<FlatRing>& rings) { return nest_rings(rings, "a.dxf: layer b"); };
+  EXPECT_EQ(nested({}), Polygons{});
   // The order in the file does not matter.
-  EXPECT_EQ(nest_rings({box(2, 2, 3, 3), box(0, 0, 9, 9), box(1, 1, 8, 8)}), (Polygons{{0}, {1, 2}}));
+  EXPECT_EQ(nested({box(2, 2, 3, 3), box(0, 0, 9, 9), box(1, 1, 8, 8)}), (Polygons{{0}, {1, 2}}));
   // A house that fills the courtyard: of equal rings the hole is the first one after its outline. Equal
   // outlines are two buildings.
-  EXPECT_EQ(nest_rings({box(0, 0, 9, 9), box(1, 1, 8, 8), box(1, 1, 8, 8)}), (Polygons{{0, 1}, {2}}));
-  EXPECT_EQ(nest_rings({box(0, 0, 9, 9), box(0, 0, 9, 9)}), (Polygons{{0}, {1}}));
-  EXPECT_EQ(nest_rings({box(1, 1, 8, 8), box(0, 0, 9, 9), box(1, 1, 8, 8)}), (Polygons{{0}, {1, 2}}));
+  EXPECT_EQ(nested({box(0, 0, 9, 9), box(1, 1, 8, 8), box(1, 1, 8, 8)}), (Polygons{{0, 1}, {2}}));
+  EXPECT_EQ(nested({box(0, 0, 9, 9), box(0, 0, 9, 9)}), (Polygons{{0}, {1}}));
+  EXPECT_EQ(nested({box(1, 1, 8, 8), box(0, 0, 9, 9), box(1, 1, 8, 8)}), (Polygons{{0}, {1, 2}}));
   // Overlapping in part, touching, and sticking out by rounding.
-  EXPECT_EQ(nest_rings({box(0, 0, 9, 9), box(5, 5, 12, 12)}), (Polygons{{0}, {1}}));
-  EXPECT_EQ(nest_rings({box(0, 0, 9, 9), box(9, 0, 12, 9)}), (Polygons{{0}, {1}}));
-  EXPECT_EQ(nest_rings({box(0, 0, 9, 9), box(1, 1, 8, 8), box(1 - 1e-9, 2, 8 + 1e-9, 4)}),
+  EXPECT_EQ(nested({box(0, 0, 9, 9), box(5, 5, 12, 12)}), (Polygons{{0}, {1}}));
+  EXPECT_EQ(nested({box(0, 0, 9, 9), box(9, 0, 12, 9)}), (Polygons{{0}, {1}}));
+  EXPECT_EQ(nested({box(0, 0, 9, 9), box(1, 1, 8, 8), box(1 - 1e-9, 2, 8 + 1e-9, 4)}),
             (Polygons{{0, 1}, {2}}));
   // A ring that crosses itself neither holds nor is held, nor stops the others.
-  EXPECT_EQ(nest_rings({{{0, 0}, {0, 0}, {0, 0}}, box(0, 0, 9, 9), box(1, 1, 2, 2)}),
-            (Polygons{{0}, {1, 2}}));
+  EXPECT_EQ(nested({{{0, 0}, {0, 0}, {0, 0}}, box(0, 0, 9, 9), box(1, 1, 2, 2)}), (Polygons{{0}, {1, 2}}));
+  // Contour lines: each in each other.
+  std::vector<FlatRing> contours;
+  for (int i = 0; i < 600; ++i) contours.push_back(box(-10 - i, -10 - i, 10 + i, 10 + i));
+  try {
+    nested(contours);
+    ADD_FAILURE() << "600 rings in one another were compared";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::bad_input);
+    EXPECT_TRUE(std::string(error.what()).starts_with("a.dxf: layer b: its closed lines")) << error.what();
+  }
 }
 
 TEST(Footprints, DxfHatchesAndWhatIsNoOutline) {
