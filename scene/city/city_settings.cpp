@@ -120,7 +120,8 @@ CitySettings load_city_settings(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored) || !in || !(text << in.rdbuf()))
+  const bool empty = std::filesystem::file_size(file, ignored) == 0;  // which is a configuration without keys
+  if (std::filesystem::is_directory(file, ignored) || !in || !(empty || text << in.rdbuf()))
     throw Error(ExitStatus::input_output,
                 file.string() + ": cannot read the configuration; check that the file exists");
   return parse_city_settings(text.str(), file.string(), std::filesystem::absolute(file).parent_path());

@@ -74,15 +74,19 @@ void FacadeDeriver::split(const Facade& facade, const Rectangle& r, uint32_t sta
       r.u1 - r.u0 < least_m || r.v1 - r.v0 < least_m ? nullptr : choose(rules_->states[state], r, place);
   if (choice == nullptr) return wall(facade, r);
   const Split& split = rules_->splits[choice->split];
+  const auto refuse = [&] {
+    throw bad_input(split.file, split.place,
+                    "never ends, or splits too finely for the building; use larger sizes");
+  };
+  // Before there is memory for them: a wall may be as long as the plan says.
+  if (most_parts(split, r.u1 - r.u0, r.v1 - r.v0) > static_cast<double>(most_cells)) refuse();
   const size_t columns_begin = lines_.size();
   uint64_t n = append_columns(split, r.u0, r.u1, place, first_split_number, lines_);
   const size_t rows_begin = lines_.size();
   n = append_rows(split, r.v0, r.v1, place, n, lines_);
   const size_t columns = rows_begin - columns_begin, rows = lines_.size() - rows_begin;
   cells_ += columns * rows;
-  if (cells_ > most_cells || depth >= most_deep)
-    throw bad_input(split.file, split.place,
-                    "never ends, or splits too finely for the building; use larger sizes");
+  if (cells_ > most_cells || depth >= most_deep) refuse();
   uint64_t cell_number = 0;
   double u0 = r.u0;
   for (size_t i = 0; i < columns; ++i) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/vec4.hpp>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "scene/city/footprint_ground.h"
@@ -91,12 +92,15 @@ class Planner {
   }
 
   CityPlan plan() {
-    to_metres(source_);
+    try {
+      to_metres(source_);
+    } catch (const Error& error) {  // about a CRS
+      throw Error(error.status(), first_place() + ": " + error.what());
+    }
     for (const Footprint& footprint : source_.footprints) add(footprint);
     if (plan_.buildings.empty())
-      throw bad_input(
-          source_.format, "footprints",
-          fmt::format("none of {} can be built on; check unit and CRS", source_.footprints.size()));
+      throw Error(ExitStatus::bad_input, fmt::format("{}: none of {} can be built on; check unit and CRS",
+                                                     first_place(), source_.footprints.size()));
     fill_grounds();
     raise_buildings();
     find_party_walls(standing_);
@@ -107,6 +111,11 @@ class Planner {
   }
 
  private:
+  // Names the file in messages about all of them.
+  std::string first_place() const {
+    return source_.footprints.empty() ? source_.format : source_.footprints.front().place;
+  }
+
   void add(const Footprint& footprint) {
     std::vector<Ring> rings;
     for (const Ring& ring : footprint.rings) {
@@ -178,8 +187,11 @@ class Planner {
 
   // Sites are what rows of a PVS list: each has a name of its own.
   std::string unique(const std::string& name) {
-    std::string free = name;
-    for (size_t i = 2; !names_.insert(free).second; ++i) free = fmt::format("{}_{}", name, i);
+    if (names_.insert(name).second) return name;
+    uint64_t& last = last_suffix_.try_emplace(name, 1).first->second;
+    std::string free;
+    do free = fmt::format("{}_{}", name, ++last);
+    while (!names_.insert(free).second);
     return free;
   }
 
@@ -230,6 +242,7 @@ class Planner {
   std::vector<StandingBuilding> standing_;
   std::vector<double> weights_;
   std::set<std::string> names_;
+  std::map<std::string, uint64_t> last_suffix_;
 };
 
 }  // namespace

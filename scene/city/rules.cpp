@@ -23,7 +23,7 @@ Terminal make_terminal(const std::string& name, const WrittenTerminal& written, 
                        std::vector<std::string>& layers) {
   if (written.path.empty())
     return plain_terminal(name, layer_index(layers, written.layer.empty() ? lower(name) : written.layer));
-  if (!std::filesystem::is_regular_file(written.path))
+  if (std::error_code ignored; !std::filesystem::is_regular_file(written.path, ignored))
     throw written.place.error(fmt::format("terminal '{}': there is no file '{}'; check file=\"...\"", name,
                                           printable(written.path.lexically_normal().string(), 300)));
   return load_terminal(name, written.path, wall_layer, written.layer, layers);

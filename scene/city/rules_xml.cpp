@@ -197,7 +197,7 @@ void read_into(RulesDocument& document, const std::filesystem::path& path, int d
       throw element.place().error(
           "files that include one another more than 8 deep; does one include itself?");
     const std::filesystem::path included = path.parent_path() / element.text("file");
-    if (!std::filesystem::is_regular_file(included))
+    if (std::error_code ignored; !std::filesystem::is_regular_file(included, ignored))
       throw element.place().error(
           fmt::format("'{}' is not a file; check file=\"...\" of <Include>", element.text("file")));
     read_into(document, included, depth + 1);

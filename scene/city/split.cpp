@@ -76,6 +76,13 @@ bool fits(const Split& split, double width_m, double height_m) {
   return width_m * (1 + rounding) >= split.min_width_m && height_m * (1 + rounding) >= split.min_height_m;
 }
 
+double most_parts(const Split& split, double width_m, double height_m) {
+  if (split.type == Split::Type::fixed)
+    return static_cast<double>(std::max(split.columns.size(), split.rows.size()));
+  const auto parts = [](double size, double least) { return least == 0 ? 1 : size / least; };
+  return std::max(parts(width_m, split.min_width_m), parts(height_m, split.min_height_m));
+}
+
 uint64_t append_columns(const Split& split, double begin, double end, RandomPlace place, uint64_t n,
                         std::vector<double>& ends) {
   return append(split, split.columns, split.min_width_m, begin, end, place, n, ends);

@@ -38,6 +38,8 @@ int crossings(const Terminal& terminal, int axis, double p, double q) {
 void check_closed(const Terminal& terminal, const std::string& file) {
   glm::dvec3 low(0, 0, -1e-3), high(1, 1, 1e-3);
   for (const glm::dvec3& p : terminal.vertices) {
+    if (!std::isfinite(p.x + p.y + p.z))
+      throw bad_input(file, "vertices", "are placed beyond all numbers; repair the insert or its scale");
     low = glm::min(low, p);
     high = glm::max(high, p);
   }

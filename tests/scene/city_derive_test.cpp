@@ -1,6 +1,7 @@
 // Derived buildings: closed, the right way round, the same every time.
 #include "scene/city/derive.h"
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 
 #include <cmath>
@@ -240,6 +241,23 @@ TEST_F(CityDerive, RuleThatOnlyShrinksForEver) {
     EXPECT_EQ(error.status(), ExitStatus::bad_input);
     EXPECT_NE(std::string(error.what()).find("rule 'F' of shape 'Floor': never ends"), std::string::npos)
         << error.what();
+  }
+}
+
+// Refused before there is memory for its columns: 20 thousand million of them.
+TEST_F(CityDerive, RuleThatSplitsAWallOfAnyLength) {
+  for (const char* const split : {"Random", "Repeat"}) {
+    const RuleSet rules =
+        load(fmt::format("<Floor><F><{0} minWidth=\"0.05\"><Wall/></{0}></F></Floor>", split));
+    try {
+      derive_building(plan({{{0, 0}, {1e9, 0}, {1e9, 10}, {0, 10}}}), rules);
+      ADD_FAILURE() << "built";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.status(), ExitStatus::bad_input);
+      EXPECT_NE(std::string(error.what()).find("rule 'F' of shape 'Floor': never ends, or splits too finely"),
+                std::string::npos)
+          << error.what();
+    }
   }
 }
 

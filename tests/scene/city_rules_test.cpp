@@ -104,6 +104,9 @@ TEST_F(CityRules, BadRules) {
   const std::pair<std::string, std::string> table[] = {
       {"<Floor>", "line 1: is not well-formed XML"},
       {"", "line 1: no shape 'Floor'"},
+      {"<Include file=\"" + std::string(300, 'a') + "\"/>", "line 1: 'aaa"},
+      {"<Terminals><A file=\"" + std::string(300, 'a') + "\"/></Terminals>",
+       "line 1: terminal 'A': there is no"},
       {floor, "line 2: 'Face' is neither a shape nor a terminal"},
       {"<Floor><F>\n<Wal/></F></Floor>",
        "line 2: 'Wal' is neither a shape nor a terminal, below the root or in <Terminals>; did you mean "

@@ -114,6 +114,13 @@ TEST_F(CitySettingsFile, RefusesWhatIsMissing) {
                  ExitStatus::bad_input);
   expect_refused("= 3", "city.toml: line 1: ");
   EXPECT_THROW(load_city_settings(directory_ / "no.toml"), Error);
+  std::ofstream(directory_ / "empty.toml").close();
+  try {
+    load_city_settings(directory_ / "empty.toml");
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::usage) << error.what();
+  }
   EXPECT_THROW(load_city_settings(directory_), Error);
 }
 

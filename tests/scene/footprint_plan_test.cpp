@@ -237,7 +237,7 @@ TEST(FootprintPlan, RefusesAPlanWithoutPlaceForABuilding) {
   expect_refused(plan, "features/a: a corner at");
   plan = toy_plan();
   plan.footprints = {box("speck", 0, 0, 0.1, 0.1)};
-  expect_refused(plan, "none of 1 can be built on");
+  expect_refused(plan, "features/speck: none of 1 can be built on");
   plan.footprints.clear();
   expect_refused(plan, "none of 0");
 }
