@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <exception>
+#include <glm/geometric.hpp>
 #include <map>
 #include <tuple>
 
@@ -23,6 +24,21 @@ Polygon polygon_of(const Ring& ring) {
   for (const glm::dvec2& p : ring) polygon.push_back({p.x, p.y});
   return polygon;
 }
+
+// Vertices of a skeleton that a symmetric outline has at one place come out a rounding apart.
+class Places {
+ public:
+  glm::dvec3 same(const glm::dvec3& point) {
+    for (const glm::dvec3& known : known_)
+      if (glm::distance(known, point) < same_m) return known;
+    known_.push_back(point);
+    return point;
+  }
+
+ private:
+  static constexpr double same_m = 1e-6;
+  std::vector<glm::dvec3> known_;
+};
 
 }  // namespace
 
@@ -41,14 +57,15 @@ std::vector<SkeletonFace> straight_skeleton(const std::vector<Ring>& rings) try 
   for (size_t r = 0; r < rings.size(); ++r)
     for (size_t i = 0; i < rings[r].size(); ++i, ++edges) edge_from[{rings[r][i].x, rings[r][i].y}] = {r, i};
   std::vector<SkeletonFace> faces;
+  Places places;
   for (auto face = skeleton->faces_begin(); face != skeleton->faces_end(); ++face) {
     SkeletonFace found;
     const auto first = face->halfedge();  // the contour's
     auto edge = first;
     do {
       const auto vertex = edge->vertex();
-      const glm::dvec3 point(vertex->point().x(), vertex->point().y(),
-                             vertex->is_contour() ? 0 : vertex->time());
+      glm::dvec3 point(vertex->point().x(), vertex->point().y(), 0);
+      if (!vertex->is_contour()) point = places.same({point.x, point.y, vertex->time()});
       if (!std::isfinite(point.x + point.y + point.z)) return {};
       if (found.points.empty() || found.points.back() != point) found.points.push_back(point);
       edge = edge->next();
