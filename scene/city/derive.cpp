@@ -11,6 +11,7 @@
 #include <mutex>
 #include <numeric>
 
+#include "scene/city/close_edges.h"
 #include "scene/city/courses.h"
 #include "scene/city/facade.h"
 #include "scene/city/roof.h"
@@ -86,6 +87,7 @@ class BuildingDeriver {
     }
     add_roof(builder_, rules, outline_.rings, blind_at_roof(), levels_.back());
     add_cap(builder_, outline_.rings, 0, false, rules.ground_layer);
+    closer_.close(mesh);
   }
 
  private:
@@ -162,6 +164,7 @@ class BuildingDeriver {
   const RuleSet* rules_ = nullptr;
   MeshBuilder builder_;
   FacadeDeriver facades_;
+  EdgeCloser closer_;
   Outline outline_;
   std::vector<double> levels_;
   std::vector<Band> bands_;

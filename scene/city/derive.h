@@ -11,9 +11,9 @@
 namespace veduta::city {
 
 /// Derives one building: a facade for each edge of its outline, a roof, and the ground below, so that the
-/// mesh is closed up to T-junctions and counter-clockwise seen from outside. Layers are of `rules`. The same
-/// plan and rules give the same mesh.
-/// \throw Error(bad_input) when a rule never ends, or a plan has no outline with area
+/// mesh is closed edge by edge (close_edges.h) and counter-clockwise seen from outside. Layers are of
+/// `rules`. The same plan and rules give the same mesh. \throw Error(bad_input) when a rule never ends, or a
+/// plan has no outline with area
 Mesh derive_building(const BuildingPlan& plan, const RuleSet& rules);
 
 /// Derives every building of a plan, on all cores; any number of them gives the same model. Layers that

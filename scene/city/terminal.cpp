@@ -8,8 +8,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 #include <map>
-#include <set>
 
+#include "scene/city/close_edges.h"
+#include "scene/city/reveals.h"
 #include "scene/city/terminal_check.h"
 #include "scene/import.h"
 #include "scene/readers/dxf.h"
@@ -77,41 +78,36 @@ class Builder {
           layer);
   }
 
-  // Where a face ends at the unit square's border away from z = 0, a strip of wall leads there.
   void add_reveals(uint16_t wall_layer) {
-    std::set<std::pair<uint32_t, uint32_t>> edges;
-    for (const Face& face : terminal.faces)
-      for_each_edge(face, [&](uint32_t a, uint32_t b) { edges.emplace(a, b); });
-    for (const auto& [a, b] : edges) {
-      if (edges.contains({b, a}) || !on_one_side(a, b)) continue;
-      const glm::dvec3 pa = terminal.vertices[a], pb = terminal.vertices[b];
-      if (pa.z == 0 && pb.z == 0) continue;
-      const uint32_t wall_a = index_of({pa.x, pa.y, 0}), wall_b = index_of({pb.x, pb.y, 0});
-      const std::array<uint32_t, 4> corners{b, a, wall_a, wall_b};
-      if (pa.z == 0) {
-        add_face({b, a, wall_b, wall_b}, wall_layer);
-      } else if (pb.z == 0) {
-        add_face({b, a, wall_a, wall_a}, wall_layer);
-      } else if (pa.z * pb.z > 0) {
-        add_face(corners, wall_layer);
-      } else {
-        throw bad_input(model_.file, "border", "an edge that passes through the wall; let it end at z = 0");
-      }
-    }
+    for (const std::vector<glm::dvec3>& outline : reveals(terminal, model_.file))
+      add_outline(outline, wall_layer);
+  }
+
+  // Its own faces, once and for all: buildings repeat it. What is open at its border may stay so.
+  void share_edges() {
+    Mesh mesh{std::move(terminal.vertices), std::move(terminal.faces)};
+    EdgeCloser().close(mesh);
+    terminal.vertices = std::move(mesh.vertices);
+    terminal.faces = std::move(mesh.faces);
+    terminal.at_border.clear();
+    for (const glm::dvec3& p : terminal.vertices) terminal.at_border.push_back(is_at_border(p));
   }
 
   Terminal terminal;
 
  private:
-  template <typename Visit>
-  static void for_each_edge(const Face& face, const Visit& visit) {
-    const size_t corners = face.is_quad() ? 4 : 3;
-    for (size_t i = 0; i < corners; ++i) visit(face.corner[i], face.corner[(i + 1) % corners]);
-  }
-  bool on_one_side(uint32_t a, uint32_t b) const {
-    const glm::dvec3 p = terminal.vertices[a], q = terminal.vertices[b];
-    return (p.x == q.x && (p.x == 0 || p.x == 1) && p.y != q.y) ||
-           (p.y == q.y && (p.y == 0 || p.y == 1) && p.x != q.x);
+  static bool is_at_border(const glm::dvec3& p) { return p.x <= 0 || p.x >= 1 || p.y <= 0 || p.y >= 1; }
+  void add_outline(std::vector<glm::dvec3> points, uint16_t layer) {
+    if (points.size() == 4)
+      return add_face({index_of(points[0]), index_of(points[1]), index_of(points[2]), index_of(points[3])},
+                      layer);
+    const uint64_t end = points.size();
+    std::vector<std::array<uint32_t, 3>> triangles;
+    triangulate(points, std::span(&end, 1), triangles);
+    for (const auto& t : triangles)
+      add_face(
+          {index_of(points[t[0]]), index_of(points[t[1]]), index_of(points[t[2]]), index_of(points[t[2]])},
+          layer);
   }
   static glm::dvec3 snapped(glm::dvec3 p) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -135,7 +131,7 @@ class Builder {
         index_.try_emplace({p.x, p.y, p.z}, static_cast<uint32_t>(terminal.vertices.size()));
     if (added) {
       terminal.vertices.push_back(p);
-      terminal.at_border.push_back(p.x <= 0 || p.x >= 1 || p.y <= 0 || p.y >= 1);
+      terminal.at_border.push_back(is_at_border(p));
     }
     return known->second;
   }
@@ -200,6 +196,7 @@ Terminal load_terminal(const std::string& name, const std::filesystem::path& pat
   }
   builder.add_reveals(layer_index(layers, wall_layer));
   check_closed(builder.terminal, model.file);
+  builder.share_edges();
   builder.terminal.recess_m = recess_of(builder.terminal);
   return std::move(builder.terminal);
 }

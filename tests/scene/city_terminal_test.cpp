@@ -52,6 +52,17 @@ TEST_F(CityTerminal, SlopedSideEndsInTriangle) {
   EXPECT_EQ(terminal.faces.size(), 4u);  // the pane, two triangles, the lintel
 }
 
+// Two panes at different depths, one above the other: the wall beside them meets one edge, not two.
+TEST_F(CityTerminal, OneRevealAlongASide) {
+  const Terminal terminal = load_obj(
+      "v 0 0 -.2\nv 1 0 -.2\nv 1 .5 -.2\nv 0 .5 -.2\nv 0 .5 -.1\nv 1 .5 -.1\nv 1 1 -.1\nv 0 1 -.1\n"
+      "f 1 2 3 4\nf 4 3 6 5\nf 5 6 7 8\n");
+  EXPECT_EQ(terminal.vertices.size(), 12u);  // of the wall the four corners only
+  size_t triangles = 0;
+  for (const Face& face : terminal.faces) triangles += face.is_quad() ? 2 : 1;
+  EXPECT_EQ(triangles, 6u + 2 * 2 + 2 * 4);
+}
+
 TEST_F(CityTerminal, LayersOfFilesAndStyles) {
   const std::string halves =
       "v 0 0 0\nv .5 0 0\nv 1 0 0\nv 1 1 0\nv .5 1 0\nv 0 1 0\ng wall\nf 1 2 5 6\ng Frame\nf 2 3 4 5\n";

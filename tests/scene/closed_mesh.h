@@ -1,4 +1,4 @@
-// Whether a mesh is closed, by lines through it: T-junctions are no holes, and bodies may cross.
+// Whether a mesh is closed, by lines through it: bodies may cross.
 #pragma once
 
 #include <algorithm>
