@@ -10,6 +10,7 @@
 
 #include "city_files.h"
 #include "closed_mesh.h"
+#include "edge_balance.h"
 
 namespace veduta::city {
 namespace {
@@ -88,6 +89,8 @@ TEST_F(CityDerive, BuildingsAreClosed) {
         EXPECT_GT(crossings.lines, 100);
         EXPECT_EQ(crossings.open, 0) << name << roof << crossings.first;
         EXPECT_EQ(crossings.inside_out, 0) << name << roof << crossings.first;
+        const EdgeBalance balance = edge_balance(mesh);
+        EXPECT_EQ(balance.open, 0) << name << roof << balance.first;
         for (const Face& face : mesh.faces) {
           const glm::dvec3 &a = mesh.vertices[face.corner[0]], &b = mesh.vertices[face.corner[1]],
                            &c = mesh.vertices[face.corner[2]], &d = mesh.vertices[face.corner[3]];
