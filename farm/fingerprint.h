@@ -24,7 +24,8 @@ struct Fingerprint {
   std::string text() const;
 };
 
-/// Reads every file that the models depend on (files_of() in scene/model_files.h). \throw Error(bad_input) when one is missing or cannot be read.
+/// Reads every file that the models depend on (files_of() in scene/model_files.h). \throw Error(bad_input)
+/// when one is missing or cannot be read.
 Fingerprint make_fingerprint(const Settings& settings);
 
 /// \throw Error(other_job) naming the first key that differs, when `stored` (the content of the `fingerprint`
