@@ -10,14 +10,13 @@
 #include <map>
 #include <numeric>
 #include <tuple>
-#include <unordered_map>
-#include <unordered_set>
 
 #include "scene/draft.h"
 #include "scene/extent.h"
 #include "scene/polygon_drafts.h"
 #include "scene/terrain_skirt.h"
 #include "scene/text.h"
+#include "scene/unique_names.h"
 #include "scene/vertex_pool.h"
 
 namespace veduta {
@@ -109,7 +108,7 @@ class Assembler {
       result_.report.skirt_triangles += walls.size();
       drafts.insert(drafts.end(), walls.begin(), walls.end());
     }
-    const std::string name = unique(object.name.empty() ? kind_name(object.kind) : object.name);
+    const std::string name = unique_(object.name.empty() ? kind_name(object.kind) : object.name);
     if (terrain && options_.terrain_tile_m > 0) {
       emit_tiles(name, drafts);
     } else {
@@ -150,7 +149,7 @@ class Assembler {
     instance.scene_from_mesh[3] = placement * glm::dvec4(shared.origin, 1) - origin_;
     scene.instances.push_back(instance);
     add_parts(shared.parts, begin);
-    push_object(unique(object.name.empty() ? kind_name(object.kind) : object.name), object.kind, begin,
+    push_object(unique_(object.name.empty() ? kind_name(object.kind) : object.name), object.kind, begin,
                 count);
     ++result_.report.instances;
   }
@@ -192,18 +191,9 @@ class Assembler {
     for (size_t begin = 0, end = 0; begin < order.size(); begin = end) {
       const Tile tile = tiles[order[begin]];
       while (end < order.size() && tiles[order[end]] == tile) ++end;
-      emit(unique(fmt::format("{}/{}_{}", name, tile.column, tile.row)), Kind::terrain,
+      emit(unique_(fmt::format("{}/{}_{}", name, tile.column, tile.row)), Kind::terrain,
            sorted.begin() + static_cast<ptrdiff_t>(begin), sorted.begin() + static_cast<ptrdiff_t>(end));
     }
-  }
-
-  std::string unique(const std::string& name) {
-    if (names_.insert(name).second) return name;
-    uint64_t& last = last_suffix_.try_emplace(name, 1).first->second;
-    std::string other;
-    do other = fmt::format("{}#{}", name, ++last);
-    while (!names_.insert(other).second);
-    return other;
   }
 
   const glm::dvec3 origin_;
@@ -211,8 +201,7 @@ class Assembler {
   const ImportOptions options_;
   ImportResult result_;
   VertexPool pool_{result_.scene.vertices};
-  std::unordered_set<std::string> names_;
-  std::unordered_map<std::string, uint64_t> last_suffix_;
+  UniqueNames unique_{'#'};
   std::vector<std::pair<const RawModel*, const RawObject*>> shared_;
   uint64_t vertices_ = 0;  // of all instances
 };

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <glm/vec4.hpp>
 #include <limits>
-#include <map>
-#include <set>
 
 #include "scene/city/footprint_ground.h"
 #include "scene/city/party_walls.h"
@@ -15,6 +13,7 @@
 #include "scene/city/styles.h"
 #include "scene/crs.h"
 #include "scene/raw_model.h"
+#include "scene/unique_names.h"
 
 namespace veduta::city {
 namespace {
@@ -139,7 +138,7 @@ class Planner {
     building.seed = dice.below(uint64_t{1} << 53, 1);
     choose_size(footprint, dice, building);
     plan_.buildings.push_back(building);
-    plan_.sites.push_back({unique(footprint.name), static_cast<uint32_t>(plan_.buildings.size() - 1)});
+    plan_.sites.push_back({unique_(footprint.name), static_cast<uint32_t>(plan_.buildings.size() - 1)});
     const bool stated = options_.use_ground && footprint.ground && std::isfinite(*footprint.ground);
     counts_.ground_stated += stated ? 1 : 0;
     standing_.push_back({std::move(rings), stated ? *footprint.ground : unknown, 0, {}});
@@ -183,16 +182,6 @@ class Planner {
       floors = least + static_cast<int>(dice.below(static_cast<uint64_t>(most - least + 1), 2));
     }
     building.floors = floors;
-  }
-
-  // Sites are what rows of a PVS list: each has a name of its own.
-  std::string unique(const std::string& name) {
-    if (names_.insert(name).second) return name;
-    uint64_t& last = last_suffix_.try_emplace(name, 1).first->second;
-    std::string free;
-    do free = fmt::format("{}_{}", name, ++last);
-    while (!names_.insert(free).second);
-    return free;
   }
 
   // A building of unknown ground stands on the mean of the known ones.
@@ -241,8 +230,7 @@ class Planner {
   CityPlan plan_;
   std::vector<StandingBuilding> standing_;
   std::vector<double> weights_;
-  std::set<std::string> names_;
-  std::map<std::string, uint64_t> last_suffix_;
+  UniqueNames unique_{'_'};  // sites are what rows of a PVS list
 };
 
 }  // namespace
