@@ -23,13 +23,13 @@ int clamped_index(double value, double lower, double size, int count) {
 }  // namespace
 
 int GridFrame::column_x(double x_m) const {
-  return clamped_index(x_m, lower_x, size_m, nx);
+  return clamped_index(x_m, x(0), size_m, nx);
 }
 int GridFrame::column_y(double y_m) const {
-  return clamped_index(y_m, lower_y, size_m, ny);
+  return clamped_index(y_m, y(0), size_m, ny);
 }
 int GridFrame::layer(double z_m) const {
-  return clamped_index(z_m, lower_z, size_m, nz);
+  return clamped_index(z_m, z(0), size_m, nz);
 }
 
 Box GridFrame::box(int i0, int i1, int j0, int j1, int k0, int k1) const {
@@ -64,10 +64,10 @@ GridFrame make_frame(const Box& bounds, double size_m, uint64_t limit_bytes) {
   }
   GridFrame frame;
   frame.size_m = size_m;
-  const double aside = aside_of_multiples * size_m;
-  frame.lower_x = (first(bounds.lower.x, size_m) - pad) * size_m - aside;
-  frame.lower_y = (first(bounds.lower.y, size_m) - pad) * size_m - aside;
-  frame.lower_z = first(bounds.lower.z, size_m) * size_m - aside;
+  frame.aside_m = aside_of_multiples * size_m;
+  frame.i0 = static_cast<int>(first(bounds.lower.x, size_m) - pad);
+  frame.j0 = static_cast<int>(first(bounds.lower.y, size_m) - pad);
+  frame.k0 = static_cast<int>(first(bounds.lower.z, size_m));
   frame.nx = static_cast<int>(nx), frame.ny = static_cast<int>(ny), frame.nz = static_cast<int>(nz);
   return frame;
 }

@@ -9,15 +9,18 @@
 
 namespace veduta {
 
-/// Where the voxels lie: voxel (i, j, k) is the closed cube lower + size * [i, i+1] x [j, j+1] x [k, k+1].
+/// A part of the city's lattice of voxels, by number: voxel (i, j, k) of the frame is voxel (i0 + i, j0 + j,
+/// k0 + k) of the lattice, a closed cube of edge size_m. Planes of the lattice are computed from those
+/// numbers alone, so that every frame of a city has the same.
 struct GridFrame {
-  double lower_x = 0, lower_y = 0, lower_z = 0;  ///< m, relative to the scene origin
   double size_m = 1;
+  double aside_m = 0;  ///< how far the planes lie beside the whole multiples of the size
+  int i0 = 0, j0 = 0, k0 = 0;
   int nx = 0, ny = 0, nz = 0;
 
-  double x(int i) const { return lower_x + i * size_m; }
-  double y(int j) const { return lower_y + j * size_m; }
-  double z(int k) const { return lower_z + k * size_m; }
+  double x(int i) const { return (i0 + i) * size_m - aside_m; }  ///< m, relative to the scene origin
+  double y(int j) const { return (j0 + j) * size_m - aside_m; }
+  double z(int k) const { return (k0 + k) * size_m - aside_m; }
   /// Index of the voxel that holds a coordinate, clamped to the grid.
   int column_x(double x_m) const;
   int column_y(double y_m) const;

@@ -13,6 +13,9 @@ namespace veduta {
 
 inline constexpr int seeds_per_voxel = 4;  ///< along an edge
 
+/// The frame of the seeds of a frame of voxels.
+GridFrame fine_frame(const GridFrame& coarse);
+
 /// Bit x + 4 y + 16 z of a brick is the seed (x, y, z) of its voxel.
 using Brick = uint64_t;
 
@@ -33,13 +36,12 @@ class BrickGrid {
  private:
   size_t index(int i, int j, int k) const;
 
-  const BitGrid& occupied_;
+  const BitGrid* occupied_;
   std::vector<size_t> begin_;  // [ny * nx] first brick of a column
   std::vector<Brick> bricks_;
 };
 
-/// The seeds that a closed triangle touches, in the occupied voxels of the scene. Those of terrain count as
-/// touched whole: a sheet of ground has no slits, and is most of a city's surface.
+/// The seeds that a closed triangle touches, in the occupied voxels of the scene.
 BrickGrid seed_bricks(const Scene& scene, const BitGrid& occupied);
 
 }  // namespace veduta

@@ -12,14 +12,10 @@ namespace veduta {
 /// closes its open edges.
 BitGrid flood_fill(const BitGrid& occupied);
 
-/// Sealed space O, by seeds. The fill goes on from `free` into the occupied voxels, seed by seed, and through
-/// slits of two seeds into what lies behind, which then is free as well (`free` is updated). A voxel is
-/// sealed when it is not free and no seed that the fill reached lies in it or beside it (over a face, edge or
-/// corner). A point of it is sealed: a path to it from free space enters through a seed that a surface
-/// passes; a gap narrower than two seeds counts as closed. Seeds beside the reached ones are left out because
-/// a surface passes *somewhere* inside them: their outer part would hide what is in plain sight. Party walls
-/// stay in, so touching houses fuse.
-BitGrid sealed_space(const BitGrid& occupied, const BrickGrid& seeds, BitGrid& free);
+/// The fill goes on from `free` into the occupied voxels, seed by seed over faces, and through slits of two
+/// seeds into what lies behind, which then is free as well (`free` is updated). \return the seeds of occupied
+/// voxels that it reached.
+BrickGrid flood_seeds(const BitGrid& occupied, const BrickGrid& touched, BitGrid& free);
 
 /// The voxels all of whose neighbours within (rx, ry, rz) voxels are set (erosion by a box). Voxels beside
 /// and above the grid count as not set, those below it as set. Linear in the grid's words.

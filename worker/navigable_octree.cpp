@@ -20,8 +20,8 @@ class Builder {
   FreeOctree build() {
     const GridFrame& frame = free_.frame();
     FreeOctree tree;
-    tree.lower = {static_cast<float>(frame.lower_x), static_cast<float>(frame.lower_y),
-                  static_cast<float>(frame.lower_z)};
+    tree.lower = {static_cast<float>(frame.x(0)), static_cast<float>(frame.y(0)),
+                  static_cast<float>(frame.z(0))};
     tree.leaf_size_m = static_cast<float>(frame.size_m);
     tree.depth = 1;
     while ((1 << tree.depth) < std::max({frame.nx, frame.ny, frame.nz})) ++tree.depth;

@@ -8,6 +8,7 @@
 #include "scene/import.h"
 #include "worker/free_space.h"
 #include "worker/seed_grid.h"
+#include "worker/seed_region.h"
 #include "worker/slices.h"
 #include "worker/view_cells.h"
 
@@ -90,8 +91,9 @@ Prepared prepare(const Settings& settings, const StageProgress& progress) {
   const SeedGrid seeds = seed_test(city.scene, frame);
 
   stage("free space");
-  BitGrid free = flood_fill(seeds.occupied);
-  const BitGrid sealed = sealed_space(seeds.occupied, seed_bricks(city.scene, seeds.occupied), free);
+  const SeedRegion region = make_seed_region(city.scene, frame);
+  const BitGrid sealed = sealed_voxels(region);
+  const BitGrid& free = region.free;
 
   stage("view-cells");
   city.cells = walk_cells(seeds, free, walk_options(settings, city.scene));

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "worker/free_space.h"
+#include "worker/seed_region.h"
 
 namespace veduta {
 namespace {
@@ -79,42 +80,7 @@ class SeedFlood {
     }
   }
 
-  /// Voxels that are neither free nor in touch with a reached seed.
-  BitGrid sealed() const {
-    BitGrid exposed(frame_);
-    const std::vector<Direction> around = directions(false);
-    for (int j = 0; j < frame_.ny; ++j) {
-      for (int i = 0; i < frame_.nx; ++i) {
-        for (int w = 0; w < occupied_.words(); ++w) {
-          for (uint64_t bits = occupied_.column(i, j)[w]; bits != 0; bits &= bits - 1) {
-            const int k = 64 * w + std::countr_zero(bits);
-            const Brick reached = reached_.at(i, j, k);
-            if (reached == 0) continue;
-            exposed.set(i, j, k);
-            for (const Direction& d : around) {
-              if ((reached & d.side) != 0 && inside(i + d.dx, j + d.dy, k + d.dz))
-                exposed.set(i + d.dx, j + d.dy, k + d.dz);
-            }
-          }
-        }
-      }
-    }
-    // What is beside a free voxel: the complement of an erosion of what is not free.
-    BitGrid result(frame_);
-    for (int j = 0; j < frame_.ny; ++j) {
-      for (int i = 0; i < frame_.nx; ++i) {
-        for (int w = 0; w < free_.words(); ++w)
-          result.column(i, j)[w] = ~free_.column(i, j)[w] & run_mask(w, 0, frame_.nz - 1);
-      }
-    }
-    erode(result, 1, 1, 1);
-    for (int j = 0; j < frame_.ny; ++j) {
-      for (int i = 0; i < frame_.nx; ++i) {
-        for (int w = 0; w < free_.words(); ++w) result.column(i, j)[w] &= ~exposed.column(i, j)[w];
-      }
-    }
-    return result;
-  }
+  BrickGrid take_reached() { return std::move(reached_); }
 
  private:
   struct Voxel {
@@ -177,10 +143,51 @@ class SeedFlood {
 
 }  // namespace
 
-BitGrid sealed_space(const BitGrid& occupied, const BrickGrid& seeds, BitGrid& free) {
-  SeedFlood flood(occupied, seeds, free);
+BitGrid sealed_voxels(const SeedRegion& region) {
+  const BitGrid &occupied = *region.occupied, &free = region.free;
+  const GridFrame& frame = occupied.frame();
+  const auto inside = [&](int i, int j, int k) {
+    return i >= 0 && j >= 0 && k >= 0 && i < frame.nx && j < frame.ny && k < frame.nz;
+  };
+  BitGrid exposed(frame);
+  const std::vector<Direction> around = directions(false);
+  for (int j = 0; j < frame.ny; ++j) {
+    for (int i = 0; i < frame.nx; ++i) {
+      for (int w = 0; w < occupied.words(); ++w) {
+        for (uint64_t bits = occupied.column(i, j)[w]; bits != 0; bits &= bits - 1) {
+          const int k = 64 * w + std::countr_zero(bits);
+          const Brick reached = region.reached.at(i, j, k);
+          if (reached == 0) continue;
+          exposed.set(i, j, k);
+          for (const Direction& d : around) {
+            if ((reached & d.side) != 0 && inside(i + d.dx, j + d.dy, k + d.dz))
+              exposed.set(i + d.dx, j + d.dy, k + d.dz);
+          }
+        }
+      }
+    }
+  }
+  // What is beside a free voxel: the complement of an erosion of what is not free.
+  BitGrid result(frame);
+  for (int j = 0; j < frame.ny; ++j) {
+    for (int i = 0; i < frame.nx; ++i) {
+      for (int w = 0; w < free.words(); ++w)
+        result.column(i, j)[w] = ~free.column(i, j)[w] & run_mask(w, 0, frame.nz - 1);
+    }
+  }
+  erode(result, 1, 1, 1);
+  for (int j = 0; j < frame.ny; ++j) {
+    for (int i = 0; i < frame.nx; ++i) {
+      for (int w = 0; w < free.words(); ++w) result.column(i, j)[w] &= ~exposed.column(i, j)[w];
+    }
+  }
+  return result;
+}
+
+BrickGrid flood_seeds(const BitGrid& occupied, const BrickGrid& touched, BitGrid& free) {
+  SeedFlood flood(occupied, touched, free);
   flood.run();
-  return flood.sealed();
+  return flood.take_reached();
 }
 
 }  // namespace veduta

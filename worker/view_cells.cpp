@@ -112,7 +112,7 @@ HeightField ground_heights(const SeedGrid& seeds, double step_m) {
   const GridFrame& frame = seeds.occupied.frame();
   const int factor = std::max(1, static_cast<int>(std::round(step_m / frame.size_m)));
   HeightField field;
-  field.lower_x = static_cast<float>(frame.lower_x), field.lower_y = static_cast<float>(frame.lower_y);
+  field.lower_x = static_cast<float>(frame.x(0)), field.lower_y = static_cast<float>(frame.y(0));
   field.step_m = static_cast<float>(factor * frame.size_m);
   field.nx = static_cast<uint32_t>((frame.nx + factor - 1) / factor);
   field.ny = static_cast<uint32_t>((frame.ny + factor - 1) / factor);

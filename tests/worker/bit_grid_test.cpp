@@ -16,12 +16,12 @@ TEST(GridFrame, LiesBesideWholeMultiplesWithRoomAroundAndAboveAndNoneBelow) {
   const Box bounds{{-3.1f, 0.3f, 10.2f}, {4.9f, 2.0f, 12.7f}};
   for (const double size : {0.25, 0.3, 0.2, 1.0, 7.0}) {
     const GridFrame f = make_frame(bounds, size);
-    for (const double lower : {f.lower_x, f.lower_y, f.lower_z})
+    for (const double lower : {f.x(0), f.y(0), f.z(0)})
       EXPECT_NEAR(lower / size + 1e-3, std::round(lower / size), 1e-9) << size;
-    EXPECT_LE(f.lower_x + 2 * size, bounds.lower.x);
-    EXPECT_LE(f.lower_y + 2 * size, bounds.lower.y);
-    EXPECT_LE(f.lower_z, bounds.lower.z);
-    EXPECT_GT(f.lower_z + size, bounds.lower.z);  // what is below the scene is sealed
+    EXPECT_LE(f.x(0) + 2 * size, bounds.lower.x);
+    EXPECT_LE(f.y(0) + 2 * size, bounds.lower.y);
+    EXPECT_LE(f.z(0), bounds.lower.z);
+    EXPECT_GT(f.z(0) + size, bounds.lower.z);  // what is below the scene is sealed
     EXPECT_GE(f.x(f.nx - 2), bounds.upper.x);
     EXPECT_GE(f.y(f.ny - 2), bounds.upper.y);
     EXPECT_GE(f.z(f.nz - 2), bounds.upper.z);

@@ -56,8 +56,7 @@ TEST(SeedBricks, AreTheSeedTestAtTheSizeOfASeed) {
       mesh.triangle(a, b, c);
     }
     const GridFrame coarse = make_frame(mesh.scene.bounds(), 0.5);
-    GridFrame fine = coarse;
-    fine.size_m /= 4, fine.nx *= 4, fine.ny *= 4, fine.nz *= 4;
+    const GridFrame fine = fine_frame(coarse);
     const BitGrid occupied = seed_test(mesh.scene, coarse).occupied;
     const BrickGrid bricks = seed_bricks(mesh.scene, occupied);
     const BitGrid least = reference::seed_test(mesh.scene, fine, 0);
@@ -70,21 +69,6 @@ TEST(SeedBricks, AreTheSeedTestAtTheSizeOfASeed) {
       ASSERT_TRUE(!set || most.get(i, j, k)) << "set and not touched";
     });
   }
-}
-
-TEST(SeedBricks, TerrainFillsItsVoxels) {
-  Mesh mesh;
-  mesh.ground(0, 0, 4, 4, 1.3f);
-  const BitGrid occupied = seed_test(mesh.scene, make_frame(mesh.scene.bounds(), 0.5)).occupied;
-  const BrickGrid bricks = seed_bricks(mesh.scene, occupied);
-  int filled = 0, voxels = 0;
-  test::each_voxel(occupied.frame(), [&](int i, int j, int k) {
-    if (!occupied.get(i, j, k)) return;
-    ++voxels, filled += bricks.at(i, j, k) == ~Brick{0};
-  });
-  EXPECT_GE(filled, 8 * 8);
-  // A voxel that only the margin of the coarser test touches has no seed in it.
-  EXPECT_LE(voxels, 10 * 10);
 }
 
 }  // namespace

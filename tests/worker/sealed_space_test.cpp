@@ -6,7 +6,7 @@
 #include "tests/worker/mesh.h"
 #include "worker/free_space.h"
 #include "worker/reference/grid_reference.h"
-#include "worker/seed_grid.h"
+#include "worker/seed_region.h"
 
 namespace veduta {
 namespace {
@@ -16,16 +16,15 @@ using test::Random;
 
 struct Sealing {
   Sealing(const Scene& scene, double voxel_m)
-      : occupied(seed_test(scene, make_frame(scene.bounds(), voxel_m)).occupied),
-        free(flood_fill(occupied)),
-        sealed(sealed_space(occupied, seed_bricks(scene, occupied), free)) {}
-  bool free_at(double x, double y, double z) const { return at(free, x, y, z); }
+      : region(make_seed_region(scene, make_frame(scene.bounds(), voxel_m))), sealed(sealed_voxels(region)) {}
+  bool free_at(double x, double y, double z) const { return at(region.free, x, y, z); }
   bool sealed_at(double x, double y, double z) const { return at(sealed, x, y, z); }
   static bool at(const BitGrid& grid, double x, double y, double z) {
     const GridFrame& f = grid.frame();
     return grid.get(f.column_x(x), f.column_y(y), f.layer(z));
   }
-  BitGrid occupied, free, sealed;
+  SeedRegion region;
+  BitGrid sealed;
 };
 
 TEST(SealedSpace, EqualsAFillOfTheWholeGridBySeeds) {
@@ -33,7 +32,8 @@ TEST(SealedSpace, EqualsAFillOfTheWholeGridBySeeds) {
   for (const int nz : {6, 20, 64, 70}) {
     for (const double density : {0.4, 0.65, 0.9}) {  // of seeds in an occupied voxel
       const GridFrame frame = test::small_frame(random.integer(3, 8), random.integer(3, 8), nz, 0.5);
-      BitGrid occupied(frame);
+      auto made = std::make_unique<BitGrid>(frame);
+      BitGrid& occupied = *made;
       test::each_voxel(frame, [&](int i, int j, int k) {
         if (k < nz - 1 && random.chance(0.8)) occupied.set(i, j, k);
       });
@@ -49,7 +49,9 @@ TEST(SealedSpace, EqualsAFillOfTheWholeGridBySeeds) {
         }
       });
       BitGrid free = flood_fill(occupied);
-      const BitGrid sealed = sealed_space(occupied, bricks, free);
+      BrickGrid reached_seeds = flood_seeds(occupied, bricks, free);
+      const SeedRegion region{std::move(made), bricks, std::move(reached_seeds), free};
+      const BitGrid sealed = sealed_voxels(region);
       const BitGrid reached = reference::flood_fill(fine, 0);
       int sealed_voxels = 0;
       test::each_voxel(frame, [&](int i, int j, int k) {

@@ -7,7 +7,7 @@
 
 #include "tests/worker/mesh.h"
 #include "worker/free_space.h"
-#include "worker/seed_grid.h"
+#include "worker/seed_region.h"
 
 namespace veduta {
 namespace {
@@ -51,9 +51,9 @@ bool window_sealed(const BitGrid& sealed, const glm::dvec3& q, const glm::dvec3&
   const auto index = [&](double value, double lower) {
     return static_cast<int>(std::floor((value - lower) / f.size_m));
   };
-  const int i0 = index(q.x - w.x + e, f.lower_x), i1 = index(q.x + w.x - e, f.lower_x);
-  const int j0 = index(q.y - w.y + e, f.lower_y), j1 = index(q.y + w.y - e, f.lower_y);
-  const int k0 = std::max(0, index(q.z - w.z + e, f.lower_z)), k1 = index(q.z + w.z - e, f.lower_z);
+  const int i0 = index(q.x - w.x + e, f.x(0)), i1 = index(q.x + w.x - e, f.x(0));
+  const int j0 = index(q.y - w.y + e, f.y(0)), j1 = index(q.y + w.y - e, f.y(0));
+  const int k0 = std::max(0, index(q.z - w.z + e, f.z(0))), k1 = index(q.z + w.z - e, f.z(0));
   if (i0 < 0 || j0 < 0 || i1 >= f.nx || j1 >= f.ny || k1 >= f.nz) return false;
   for (int j = j0; j <= j1; ++j) {
     for (int i = i0; i <= i1; ++i) {
@@ -177,9 +177,7 @@ TEST(SealedShrinker, EveryWindowOfEveryBoxLiesInSealedSpace) {
 }
 
 BitGrid sealed_of(const Mesh& mesh) {
-  const BitGrid occupied = seed_test(mesh.scene, make_frame(mesh.scene.bounds(), 0.25)).occupied;
-  BitGrid free = flood_fill(occupied);
-  return sealed_space(occupied, seed_bricks(mesh.scene, occupied), free);
+  return sealed_voxels(make_seed_region(mesh.scene, make_frame(mesh.scene.bounds(), 0.25)));
 }
 
 size_t boxes_left(const Mesh& mesh, const ShrinkRequest& request) {

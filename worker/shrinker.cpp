@@ -1,0 +1,41 @@
+#include "worker/shrinker.h"
+
+#include <algorithm>
+
+#include "scene/error.h"
+
+namespace veduta {
+
+std::vector<PlacedTriangle> all_triangles(const Scene& scene) {
+  std::vector<PlacedTriangle> triangles;
+  triangles.reserve(scene.triangle_count());
+  for (uint32_t o = 0; o < scene.objects.size(); ++o) {
+    visit_triangles(scene, o, [&](uint64_t, const std::array<glm::vec3, 3>& corner) {
+      triangles.push_back({corner, o, scene.objects[o].kind});
+    });
+  }
+  return triangles;
+}
+
+SealedBlock make_sealed_block(const Scene& scene, double seed_size_m) {
+  const GridFrame frame = make_frame(scene.bounds(), seeds_per_voxel * seed_size_m);
+  return {make_seed_region(scene, frame), all_triangles(scene), 0, frame.nx, 0, frame.ny};
+}
+
+std::vector<RingWindow> ring_windows(const glm::dvec3& half_extent_m, int resolution, double reach_m) {
+  constexpr double sigma = 1.0 / 64;  // sub-pixel snapping of vertices, generous
+  std::vector<RingWindow> rings;
+  double h_m = std::max(half_extent_m.x, half_extent_m.y) / 32;
+  do {
+    // The last ring takes no more than it needs.
+    if (!rings.empty()) h_m = std::min(2 * h_m, 1.0001 * reach_m * (1 + sigma) / resolution);
+    rings.push_back({h_m, h_m * resolution / (1 + sigma)});
+  } while (rings.back().depth_limit_m < reach_m);
+  return rings;
+}
+
+std::unique_ptr<Shrinker> make_shrinker(const std::string& method) {
+  throw Error(ExitStatus::defect, "shrink.method: there is no method '" + method + "'");
+}
+
+}  // namespace veduta
