@@ -35,15 +35,16 @@ std::vector<Box> parts_of(const Box& cell, int subdivide) {
   return parts;
 }
 
-Baker::Baker(City city, const std::vector<Ring>& rings, const Settings& settings, const std::string& gpu)
+Baker::Baker(City city, const std::vector<WindowOccluders>& occluders, const Settings& settings,
+             const std::string& gpu)
     : city_(std::move(city)),
       subdivide_(settings.occlusion.subdivide),
+      half_extent_m_(part_half_extent(settings)),
       context_(gpu, local_rank()),
       counts_(city_.scene, city_.slices, city_.triangle_slices),
       slice_boxes_(slice_boxes(city_.scene, city_.slices, city_.triangle_slices)) {
-  panorama_ =
-      std::make_unique<Panorama>(object_boxes(city_.scene), slice_boxes_, rings,
-                                 PanoramaOptions{settings.occlusion.resolution, part_half_extent(settings)});
+  panorama_ = std::make_unique<Panorama>(object_boxes(city_.scene), slice_boxes_, occluders,
+                                         settings.occlusion.resolution);
 }
 
 CellRecord Baker::bake(uint32_t cell) {
@@ -56,7 +57,7 @@ CellRecord Baker::bake(uint32_t cell) {
   const float margin_m = city_.navigation.free.leaf_size_m;
   for (const Box& part : parts_of(city_.cells[cell], subdivide_)) {
     const Box eyes = navigable_part(city_.navigation.free, part, margin_m);
-    if (!eyes.empty()) panorama_->add_part(eyes.center());
+    if (!eyes.empty()) panorama_->add_part(eyes.center(), half_extent_m_);
   }
   const Occlusion& occlusion = panorama_->finish_cell();
   CellRecord record;

@@ -17,7 +17,8 @@ namespace veduta {
 class Baker {
  public:
   /// Makes a GL context on the chosen device and loads the city into it.
-  Baker(City city, const std::vector<Ring>& rings, const Settings& settings, const std::string& gpu);
+  Baker(City city, const std::vector<WindowOccluders>& occluders, const Settings& settings,
+        const std::string& gpu);
 
   uint32_t cell_count() const { return static_cast<uint32_t>(city_.cells.size()); }
   std::string renderer() const { return context_.renderer(); }
@@ -30,6 +31,7 @@ class Baker {
  private:
   City city_;
   int subdivide_;
+  glm::dvec3 half_extent_m_;  // of a part, eye margin included
   EglContext context_;
   TriangleCounts counts_;
   SliceBoxes slice_boxes_;

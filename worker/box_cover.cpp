@@ -3,13 +3,13 @@
 // and extended down as far as it goes: a building becomes a few towers and blocks that stand in one another.
 // Tiles are independent: rectangles grow out of their tile, but only bits of it are owed, so tiles run in
 // parallel and the result does not depend on their order.
+#include "worker/box_cover.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-
-#include "worker/shrink.h"
 
 namespace veduta {
 namespace {
@@ -36,11 +36,14 @@ struct Column {
 
 class TileCover {
  public:
-  TileCover(const BitGrid& grid, int ti, int tj)
+  /// \param own the tile's own columns, at most `tile` along each edge.
+  TileCover(const BitGrid& grid, const ColumnRange& own)
       : grid_(grid),
         frame_(grid.frame()),
-        i0_(ti * tile - margin),
-        j0_(tj * tile - margin),
+        i0_(own.i0 - margin),
+        j0_(own.j0 - margin),
+        own_i1_(margin + own.i1 - own.i0),
+        own_j1_(margin + own.j1 - own.j0),
         slab_(std::max(1, static_cast<int>(std::lround(slab_m / frame_.size_m)))) {}
 
   std::vector<Box> run(int lowest_top) {
@@ -55,9 +58,7 @@ class TileCover {
 
  private:
   static constexpr int edge = tile + 2 * margin;
-  static bool own(int i, int j) {
-    return i >= margin && j >= margin && i < margin + tile && j < margin + tile;
-  }
+  bool own(int i, int j) const { return i >= margin && j >= margin && i < own_i1_ && j < own_j1_; }
   static size_t at(int i, int j) { return static_cast<size_t>(j) * edge + i; }
 
   void collect_columns(int lowest_top) {
@@ -184,8 +185,8 @@ class TileCover {
   }
 
   void place_box(const Rect& r) {
-    const Rect mine{std::max(r.i0, margin), std::min(r.i1, margin + tile - 1), std::max(r.j0, margin),
-                    std::min(r.j1, margin + tile - 1)};
+    const Rect mine{std::max(r.i0, margin), std::min(r.i1, own_i1_ - 1), std::max(r.j0, margin),
+                    std::min(r.j1, own_j1_ - 1)};
     int64_t gain = 0;
     for (int j = mine.j0; j <= mine.j1; ++j) {
       for (int i = mine.i0; i <= mine.i1; ++i) gain += owed(i, j), tried_[at(i, j)] = true;
@@ -209,8 +210,9 @@ class TileCover {
 
   const BitGrid& grid_;
   const GridFrame& frame_;
-  int i0_, j0_;  // of the region's first column in the grid; may be negative
-  int slab_;     // voxels
+  int i0_, j0_;          // of the region's first column in the grid; may be negative
+  int own_i1_, own_j1_;  // region coordinates of the end of the tile's own columns, which begin at the margin
+  int slab_;             // voxels
   int highest_ = -1;
   bool any_own_ = false;
   std::vector<Column> columns_;
@@ -225,13 +227,15 @@ class TileCover {
 
 }  // namespace
 
-std::vector<Box> cover_with_boxes(const BitGrid& grid, double lowest_top_m) {
-  const GridFrame& frame = grid.frame();
-  const int tiles_x = (frame.nx + tile - 1) / tile, tiles_y = (frame.ny + tile - 1) / tile;
+std::vector<Box> cover_with_boxes(const BitGrid& grid, const ColumnRange& own, double lowest_top_m) {
+  const int tiles_x = (own.i1 - own.i0 + tile - 1) / tile, tiles_y = (own.j1 - own.j0 + tile - 1) / tile;
   std::vector<std::vector<Box>> found(static_cast<size_t>(tiles_x) * tiles_y);
-  const int lowest_top = frame.layer(lowest_top_m);
-  tbb::parallel_for(0, tiles_x * tiles_y,
-                    [&](int t) { found[t] = TileCover(grid, t % tiles_x, t / tiles_x).run(lowest_top); });
+  const int lowest_top = grid.frame().layer(lowest_top_m);
+  tbb::parallel_for(0, tiles_x * tiles_y, [&](int t) {
+    const int i0 = own.i0 + t % tiles_x * tile, j0 = own.j0 + t / tiles_x * tile;
+    const ColumnRange mine{i0, std::min(i0 + tile, own.i1), j0, std::min(j0 + tile, own.j1)};
+    found[t] = TileCover(grid, mine).run(lowest_top);
+  });
   std::vector<Box> boxes;
   for (const std::vector<Box>& f : found) boxes.insert(boxes.end(), f.begin(), f.end());
   return boxes;

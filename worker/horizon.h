@@ -3,18 +3,23 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <glm/vec3.hpp>
 #include <utility>
 
 #include "scene/box.h"
 
 namespace veduta {
 
-/// Keeps, for each column of a side face, the highest up / forward below which nearer boxes hide everything:
+/// Keeps, for each column of a side face, the highest up / forward below which nearer bodies hide everything:
 /// they reach down below the eye. Only used to leave occluders out, which errs towards visible; so it need
-/// not be exact.
+/// not be exact: what stands in an arch of a body that is not convex counts as hidden by it.
 class Horizon {
  public:
-  Horizon() { slope_.fill(-1e30f); }
+  Horizon() {
+    slope_.fill(none);
+    top_.fill(none), bottom_.fill(-none);
+  }
 
   /// The slope below which all columns of a box (in face coordinates, nearest depth `nearest_m` > 0) are
   /// hidden already.
@@ -28,22 +33,45 @@ class Horizon {
     return b.upper.y / (b.upper.y > 0 ? nearest_m : b.upper.z);
   }
 
-  void add(const Box& b, float nearest_m) {
-    if (b.lower.y > 0) return;  // floats above the eye: hides no ground
-    const auto [first, last] = columns(b, nearest_m);
+  /// An edge of a polygon that is drawn, in face coordinates; all the edges of a body's drawn polygons, then
+  /// end_body.
+  void add_edge(glm::vec3 a, glm::vec3 b, float depth_limit_m) {
+    if (!clip(a, b)) return;
+    if (a.x * b.z > b.x * a.z) std::swap(a, b);  // from left to right
+    const float left = place(a), right = place(b);
+    const int first = std::max(static_cast<int>(std::ceil(left)), 0),
+              last = std::min(static_cast<int>(std::floor(right)), count);
+    if (first > last) return;
+    // Straight lines are straight in the picture, and 1 / depth goes along them as height does.
+    const float width = right - left, scale = width > 0 ? 1 / width : 0;
+    const float slope_a = a.y / a.z, slope_b = b.y / b.z, near_a = 1 / a.z, near_b = 1 / b.z;
+    const float slope_step = (slope_b - slope_a) * scale, near_step = (near_b - near_a) * scale;
     for (int c = first; c <= last; ++c) {
-      // The rays along both edges of the column, cut with the box as seen from above.
-      const auto [enter0, leave0] = crossing(b, edge(c));
-      const auto [enter1, leave1] = crossing(b, edge(c + 1));
-      const float enter = std::max(enter0, enter1), leave = std::min(leave0, leave1);
-      if (enter < leave) slope_[c] = std::max(slope_[c], b.upper.y / (b.upper.y > 0 ? enter : leave));
+      const float t = static_cast<float>(c) - left;
+      if ((near_a + t * near_step) * depth_limit_m < 1) continue;  // not drawn that far
+      const float slope = slope_a + t * slope_step;
+      top_[c] = std::max(top_[c], slope), bottom_[c] = std::min(bottom_[c], slope);
     }
+    first_ = std::min(first_, first), last_ = std::max(last_, last);
+  }
+
+  /// Raises the columns that the body fills from edge to edge, to where it does on both of their edges: a
+  /// convex body fills what is in between. Bodies that float above the eye hide no ground.
+  void end_body() {
+    for (int c = first_; c < last_; ++c) {
+      if (std::max(bottom_[c], bottom_[c + 1]) <= 0)
+        slope_[c] = std::max(slope_[c], std::min(top_[c], top_[c + 1]));
+    }
+    for (int c = first_; c <= last_; ++c) top_[c] = none, bottom_[c] = -none;
+    first_ = count, last_ = 0;
   }
 
  private:
   static constexpr int count = 512;
+  static constexpr float none = -1e30f;
 
-  static float edge(int column) { return static_cast<float>(column) / (0.5f * count) - 1.0f; }
+  /// Where a point lies among the edges of columns: edge c is at right / forward = c / 256 - 1.
+  static float place(const glm::vec3& p) { return (p.x / p.z + 1) * (0.5f * count); }
 
   static std::pair<int, int> columns(const Box& b, float nearest_m) {
     const float left = b.lower.x / (b.lower.x < 0 ? nearest_m : b.upper.z);
@@ -54,15 +82,24 @@ class Horizon {
     return {column(left), column(right)};
   }
 
-  /// Depths at which the ray right = ratio * forward enters and leaves the box.
-  static std::pair<float, float> crossing(const Box& b, float ratio) {
-    const float enter = std::max(b.lower.z, 1e-3f), leave = b.upper.z;
-    if (ratio == 0) return b.lower.x <= 0 && b.upper.x >= 0 ? std::pair{enter, leave} : std::pair{1.0f, 0.0f};
-    const float t0 = b.lower.x / ratio, t1 = b.upper.x / ratio;
-    return {std::max(enter, std::min(t0, t1)), std::min(leave, std::max(t0, t1))};
+  /// The part of the edge in front of the eye and hardly beside the face. \return false for none.
+  static bool clip(glm::vec3& a, glm::vec3& b) {
+    constexpr float beside = 1.01f, nearest_m = 1e-3f;
+    if (!clip(a, b, a.z - nearest_m, b.z - nearest_m)) return false;
+    a.z = std::max(a.z, nearest_m), b.z = std::max(b.z, nearest_m);  // of a long edge, rounded
+    return clip(a, b, beside * a.z - a.x, beside * b.z - b.x) &&
+           clip(a, b, beside * a.z + a.x, beside * b.z + b.x);
+  }
+  static bool clip(glm::vec3& a, glm::vec3& b, float inside_a, float inside_b) {
+    if (inside_a < 0 && inside_b < 0) return false;
+    if (inside_a < 0) a = b + (a - b) * (inside_b / (inside_b - inside_a));
+    if (inside_b < 0) b = a + (b - a) * (inside_a / (inside_a - inside_b));
+    return true;
   }
 
   std::array<float, count> slope_;
+  std::array<float, count + 1> top_, bottom_;  // of the body at hand, at the edges of columns
+  int first_ = count, last_ = 0;               // edges of columns that it touches
 };
 
 }  // namespace veduta

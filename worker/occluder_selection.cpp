@@ -1,13 +1,14 @@
 #include "worker/occluder_selection.h"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 
 #include "worker/cube_face.h"
 
 namespace veduta {
 namespace {
 
-constexpr size_t cluster_size = 32;  // boxes: small enough to cull well, large enough to be worth a test
+constexpr size_t cluster_size = 32;  // bodies: small enough to cull well, large enough to be worth a test
 
 /// The bits of v, each followed by a 0.
 uint64_t spread_bits(uint32_t v) {
@@ -19,20 +20,20 @@ uint64_t spread_bits(uint32_t v) {
   return (x | x << 1) & 0x5555555555555555ULL;
 }
 
-/// Boxes along a Morton curve of their centres, so that neighbours share a cluster.
-std::vector<Box> sorted_by_place(const std::vector<Box>& boxes) {
+/// Bodies along a Morton curve of the centres of their bounds, so that neighbours share a cluster.
+std::vector<uint32_t> sorted_by_place(const std::vector<Box>& bounds) {
   Box all;
-  for (const Box& b : boxes) all.extend(b);
+  for (const Box& b : bounds) all.extend(b);
   const glm::vec3 scale = 65535.0f / glm::max(all.upper - all.lower, glm::vec3(1e-3f));
   std::vector<std::pair<uint64_t, uint32_t>> keys;
-  for (uint32_t b = 0; b < boxes.size(); ++b) {
-    const glm::vec3 p = (boxes[b].center() - all.lower) * scale;
+  for (uint32_t b = 0; b < bounds.size(); ++b) {
+    const glm::vec3 p = (bounds[b].center() - all.lower) * scale;
     keys.emplace_back(spread_bits(static_cast<uint32_t>(p.x)) | spread_bits(static_cast<uint32_t>(p.y)) << 1,
                       b);
   }
   std::sort(keys.begin(), keys.end());
-  std::vector<Box> sorted;
-  for (const auto& key : keys) sorted.push_back(boxes[key.second]);
+  std::vector<uint32_t> sorted;
+  for (const auto& key : keys) sorted.push_back(key.second);
   return sorted;
 }
 
@@ -40,26 +41,53 @@ Box relative_to(const Box& box, const glm::vec3& eye) {
   return {box.lower - eye, box.upper - eye};
 }
 
+/// Twice the area of a polygon along its normal.
+glm::dvec3 area_vector(const glm::vec3* corners, uint32_t count) {
+  glm::dvec3 sum(0);
+  const glm::dvec3 origin(corners[0]);
+  for (uint32_t c = 1; c + 1 < count; ++c)
+    sum += glm::cross(glm::dvec3(corners[c]) - origin, glm::dvec3(corners[c + 1]) - origin);
+  return sum;
+}
+
 }  // namespace
 
-OccluderSelection::OccluderSelection(const std::vector<Ring>& rings) {
+OccluderSelection::OccluderSelection(const std::vector<OccluderRing>& rings) {
   float from = 0;
-  for (const Ring& ring : rings) {
+  for (const OccluderRing& ring : rings) {
     RingClusters clusters{from, ring.depth_limit_m, {}};
     from = ring.depth_limit_m;
-    const std::vector<Box> sorted = sorted_by_place(ring.boxes);
+    std::vector<Box> bounds;
+    for (size_t b = 0; b < ring.occluders.bodies(); ++b) bounds.push_back(ring.occluders.bounds(b));
+    const std::vector<uint32_t> sorted = sorted_by_place(bounds);
     for (size_t b = 0; b < sorted.size(); b += cluster_size) {
       Cluster cluster{{},
-                      static_cast<uint32_t>(boxes_.size()),
+                      static_cast<uint32_t>(bodies_.size()),
                       static_cast<uint32_t>(std::min(cluster_size, sorted.size() - b))};
-      for (size_t n = b; n < b + cluster.count; ++n)
-        cluster.bounds.extend(sorted[n]), boxes_.push_back(sorted[n]);
+      for (size_t n = b; n < b + cluster.count; ++n) {
+        cluster.bounds.extend(bounds[sorted[n]]);
+        bodies_.push_back({bounds[sorted[n]], static_cast<uint32_t>(polygons_.size())});
+        add_body(ring.occluders, sorted[n]);
+      }
       clusters.clusters.push_back(cluster);
     }
     rings_.push_back(std::move(clusters));
   }
-  vertices_.reserve(capacity());
-  clusters_by_depth_.reserve(boxes_.size()), boxes_by_depth_.reserve(boxes_.size());
+  bodies_.push_back({{}, static_cast<uint32_t>(polygons_.size())});
+  polygons_.push_back({{}, static_cast<uint32_t>(corners_.size())});
+}
+
+/// Faces without an area face nobody.
+void OccluderSelection::add_body(const OccluderMesh& mesh, size_t body) {
+  for (uint32_t f = mesh.body_begin[body]; f < mesh.body_begin[body + 1]; ++f) {
+    const glm::vec3* corners = &mesh.corners[mesh.face_begin[f]];
+    const uint32_t count = mesh.face_begin[f + 1] - mesh.face_begin[f];
+    const glm::dvec3 area = area_vector(corners, count);
+    const double length = glm::length(area);
+    if (!(length > 1e-12)) continue;
+    polygons_.push_back({glm::vec3(area / length), static_cast<uint32_t>(corners_.size())});
+    corners_.insert(corners_.end(), corners, corners + count);
+  }
 }
 
 const std::vector<OccluderVertex>& OccluderSelection::select(int face, const glm::vec3& eye) {
@@ -71,11 +99,10 @@ const std::vector<OccluderVertex>& OccluderSelection::select(int face, const glm
 
 void OccluderSelection::select_ring(const RingClusters& ring, int face, const glm::vec3& eye,
                                     Horizon& horizon) {
-  const bool side = face < 4;  // the top face has no horizon; few boxes reach it
-  Box box;                     // in face coordinates
+  const bool side = face < 4;  // the top face has no horizon; few bodies reach it
   float nearest_m = 0;
   const auto needed = [&](const Box& world) {
-    box = to_face(face, relative_to(world, eye));
+    const Box box = to_face(face, relative_to(world, eye));
     nearest_m = std::max(nearest_depth(box), 1e-3f);  // not 0: depths are divided by
     return box.upper.z >= nearest_m && nearest_m <= ring.depth_limit_m && box.upper.z >= ring.depth_from_m &&
            (!side || Horizon::highest(box, nearest_m) > horizon.hidden_below(box, nearest_m));
@@ -88,35 +115,44 @@ void OccluderSelection::select_ring(const RingClusters& ring, int face, const gl
   for (const Near& near : clusters_by_depth_) {
     const Cluster& cluster = ring.clusters[near.index];
     if (!needed(cluster.bounds)) continue;  // the horizon has risen since
-    boxes_by_depth_.clear();
+    bodies_by_depth_.clear();
     for (uint32_t b = cluster.first; b < cluster.first + cluster.count; ++b) {
-      if (needed(boxes_[b])) boxes_by_depth_.push_back({nearest_m, b});
+      if (needed(bodies_[b].bounds)) bodies_by_depth_.push_back({nearest_m, b});
     }
-    std::sort(boxes_by_depth_.begin(), boxes_by_depth_.end());
-    for (const Near& candidate : boxes_by_depth_) {
-      const Box& world = boxes_[candidate.index];
-      if (!needed(world)) continue;
-      if (side) horizon.add(box, nearest_m);
-      add_sides(relative_to(world, eye), ring.depth_limit_m);
+    std::sort(bodies_by_depth_.begin(), bodies_by_depth_.end());
+    for (const Near& candidate : bodies_by_depth_) {
+      const Body& body = bodies_[candidate.index];
+      if (needed(body.bounds)) draw_body(body, face, eye, ring.depth_limit_m, side ? &horizon : nullptr);
     }
   }
 }
 
-void OccluderSelection::add_sides(const Box& relative, float depth_limit_m) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const bool below = relative.lower[axis] > 0;
-    if (!below && relative.upper[axis] >= 0) continue;  // the eye is between the two sides: neither faces it
-    const float plane = below ? relative.lower[axis] : relative.upper[axis];
-    const int a = (axis + 1) % 3, b = (axis + 2) % 3;
-    for (const auto& [upper_a, upper_b] :
-         {std::pair{false, false}, {true, false}, {true, true}, {false, true}}) {
-      OccluderVertex corner(0, 0, 0, depth_limit_m);
-      corner[axis] = plane;
-      corner[a] = upper_a ? relative.upper[a] : relative.lower[a];
-      corner[b] = upper_b ? relative.upper[b] : relative.lower[b];
-      vertices_.push_back(corner);
+/// A polygon that is seen edge on may fall on either side of rounding: drawn, it is a part of the occluder
+/// like any other; left out, it covers less than a pixel.
+void OccluderSelection::draw_body(const Body& body, int face, const glm::vec3& eye, float depth_limit_m,
+                                  Horizon* horizon) {
+  const glm::mat3 rotation = face_from_world(face);
+  const uint32_t end = (&body)[1].first;
+  for (uint32_t p = body.first; p < end; ++p) {
+    const glm::vec3* corners = &corners_[polygons_[p].first];
+    const glm::vec3 first = corners[0] - eye;
+    if (glm::dot(polygons_[p].normal, first) >= 0) continue;  // turned away
+    const uint32_t count = polygons_[p + 1].first - polygons_[p].first;
+    for (uint32_t c = 1; c + 1 < count; c += 2) {
+      vertices_.emplace_back(first, depth_limit_m);
+      for (uint32_t n = c; n < c + 3; ++n)
+        vertices_.emplace_back(corners[std::min(n, count - 1)] - eye, depth_limit_m);
+    }
+    if (horizon != nullptr) {
+      glm::vec3 from = rotation * (corners[count - 1] - eye);
+      for (uint32_t c = 0; c < count; ++c) {
+        const glm::vec3 to = rotation * (corners[c] - eye);
+        horizon->add_edge(from, to, depth_limit_m);
+        from = to;
+      }
     }
   }
+  if (horizon != nullptr) horizon->end_body();
 }
 
 }  // namespace veduta

@@ -6,32 +6,38 @@
 #include <vector>
 
 #include "worker/horizon.h"
-#include "worker/shrink.h"
+#include "worker/occluders.h"
 
 namespace veduta {
 
 /// A corner of a quad to draw: position relative to the eye, m, and the depth limit of its ring, m.
 using OccluderVertex = glm::vec4;
 
+/// The occluders of one size of window.
 class OccluderSelection {
  public:
-  explicit OccluderSelection(const std::vector<Ring>& rings);
+  explicit OccluderSelection(const std::vector<OccluderRing>& rings);
 
-  /// Most vertices that one call can give.
-  size_t capacity() const { return boxes_.size() * vertices_per_box; }
-
-  /// The quads that matter to a face, nearest boxes first, four vertices a quad, in order around it. Boxes
-  /// that reach into the face's frustum, begin before their ring's depth limit, do not end before the limit
-  /// of the ring before (which draws the same occluders with less taken off), and stand out above the horizon
-  /// of the nearer ones; of each, the sides that face the eye. To leave an occluder out errs towards visible.
-  /// Valid until the next call; allocates nothing.
+  /// The polygons that matter to a face, of the nearest bodies first, as quads of four vertices each: a
+  /// polygon of more corners is a fan of quads, and one with an odd number of corners ends with a quad whose
+  /// last two are the same. Bodies that reach into the face's frustum, begin before their ring's depth limit,
+  /// do not end before the limit of the ring before (which draws the same occluders with less taken off), and
+  /// stand out above the horizon of the nearer ones; of each, the polygons that face the eye. To leave an
+  /// occluder out errs towards visible. Valid until the next call, which reuses its memory.
   const std::vector<OccluderVertex>& select(int face, const glm::vec3& eye);
 
  private:
-  static constexpr size_t vertices_per_box = 12;  // three sides of a box at most face a point
+  struct Polygon {
+    glm::vec3 normal;  // outwards, unit length
+    uint32_t first;    // corner
+  };
+  struct Body {
+    Box bounds;
+    uint32_t first;  // polygon
+  };
   struct Cluster {
     Box bounds;
-    uint32_t first, count;  // boxes
+    uint32_t first, count;  // bodies
   };
   struct RingClusters {
     float depth_from_m, depth_limit_m;
@@ -45,12 +51,15 @@ class OccluderSelection {
     }
   };
 
+  void add_body(const OccluderMesh& mesh, size_t body);
   void select_ring(const RingClusters& ring, int face, const glm::vec3& eye, Horizon& horizon);
-  void add_sides(const Box& relative, float depth_limit_m);
+  void draw_body(const Body& body, int face, const glm::vec3& eye, float depth_limit_m, Horizon* horizon);
 
   std::vector<RingClusters> rings_;
-  std::vector<Box> boxes_;
-  std::vector<Near> clusters_by_depth_, boxes_by_depth_;
+  std::vector<Body> bodies_;       // and one more, which ends the last
+  std::vector<Polygon> polygons_;  // and one more
+  std::vector<glm::vec3> corners_;
+  std::vector<Near> clusters_by_depth_, bodies_by_depth_;
   std::vector<OccluderVertex> vertices_;
 };
 

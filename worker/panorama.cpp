@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <glm/gtc/type_ptr.hpp>
+#include <glm/vector_relational.hpp>
 #include <string>
 
 #include "gl/handle.h"
@@ -24,6 +25,9 @@ enum Binding : GLuint {
   now_binding = 4
 };
 
+/// Vertices of quads that are drawn at a time.
+constexpr size_t batch_vertices = size_t{1} << 16;
+
 void allocate(const GlBuffer& buffer, GLuint binding, size_t bytes, const void* data) {
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffer.id());
   glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(std::max<size_t>(bytes, 4)), nullptr,
@@ -40,16 +44,23 @@ GLuint groups(size_t items, size_t size) {
 }  // namespace
 
 struct Panorama::State {
-  State(const std::vector<Ring>& rings, const PanoramaOptions& opts)
-      : options(opts),
-        occluders(rings),
+  State(const std::vector<WindowOccluders>& windows, int pixels)
+      : resolution(pixels),
         draw(Program::render(shader::occluder_vertex, shader::occluder_fragment)),
         reduce(Program::compute(shader::pyramid)),
         test_objects(Program::compute(std::string(shader::box_test) + shader::object_test)),
-        test_slices(Program::compute(std::string(shader::box_test) + shader::slice_test)) {}
+        test_slices(Program::compute(std::string(shader::box_test) + shader::slice_test)) {
+    for (const WindowOccluders& window : windows)
+      occluders.push_back({window.half_extent_m, OccluderSelection(window.rings)});
+  }
 
-  PanoramaOptions options;
-  OccluderSelection occluders;
+  struct Window {
+    glm::dvec3 half_extent_m;
+    OccluderSelection occluders;
+  };
+
+  int resolution;
+  std::vector<Window> occluders;
   Program draw, reduce, test_objects, test_slices;
   GlTexture depth;
   std::array<GlFramebuffer, face_count> framebuffers;
@@ -64,13 +75,14 @@ struct Panorama::State {
 
   void make_targets();
   void make_quads();
-  void draw_face(int face, const glm::vec3& eye);
+  Window* smallest_around(const glm::dvec3& half_extent_m);
+  void draw_face(int face, const glm::vec3& eye, Window* window);
   void build_pyramid();
-  void test(const Program& program, size_t items, const glm::vec3& eye);
+  void test(const Program& program, size_t items, const glm::vec3& eye, const glm::vec3& half_extent_m);
 };
 
 void Panorama::State::make_targets() {
-  const GLsizei r = options.resolution;
+  const GLsizei r = resolution;
   glBindTexture(GL_TEXTURE_2D_ARRAY, depth.id());
   glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_DEPTH_COMPONENT32F, r, r, face_count);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -94,39 +106,51 @@ void Panorama::State::make_targets() {
   allocate(pyramid, pyramid_binding, texels * sizeof(float), nullptr);
 }
 
-/// Room for all sides of all boxes, and the indices of the two triangles of each quad, once.
+/// Room for as many quads as are drawn at a time, and the indices of the two triangles of each, once.
 void Panorama::State::make_quads() {
-  const size_t capacity = std::max<size_t>(occluders.capacity(), 4);
   glBindVertexArray(quads.id());
   glBindBuffer(GL_ARRAY_BUFFER, quad_vertices.id());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(capacity * sizeof(OccluderVertex)), nullptr,
-               GL_STREAM_DRAW);
+  glBufferData(GL_ARRAY_BUFFER, batch_vertices * sizeof(OccluderVertex), nullptr, GL_STREAM_DRAW);
   glEnableVertexAttribArray(0);
   glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(OccluderVertex), nullptr);
   std::vector<uint32_t> indices;
-  for (uint32_t v = 0; v + 4 <= capacity; v += 4)
+  for (uint32_t v = 0; v < batch_vertices; v += 4)
     indices.insert(indices.end(), {v, v + 1, v + 2, v, v + 2, v + 3});
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, quad_indices.id());
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(uint32_t)),
                indices.data(), GL_STATIC_DRAW);
 }
 
-void Panorama::State::draw_face(int face, const glm::vec3& eye) {
+Panorama::State::Window* Panorama::State::smallest_around(const glm::dvec3& half_extent_m) {
+  const auto volume = [](const glm::dvec3& e) { return e.x * e.y * e.z; };
+  Window* smallest = nullptr;
+  for (Window& window : occluders) {
+    if (glm::any(glm::lessThan(window.half_extent_m, half_extent_m))) continue;
+    if (smallest == nullptr || volume(window.half_extent_m) < volume(smallest->half_extent_m))
+      smallest = &window;
+  }
+  return smallest;
+}
+
+void Panorama::State::draw_face(int face, const glm::vec3& eye, Window* window) {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffers[face].id());
   glClear(GL_DEPTH_BUFFER_BIT);
+  if (window == nullptr) return;
   const glm::mat3 rotation = face_from_world(face);
   glUniformMatrix3fv(draw.uniform("face_from_world"), 1, GL_FALSE, glm::value_ptr(rotation));
-  const std::vector<OccluderVertex>& vertices = occluders.select(face, eye);
-  if (vertices.empty()) return;
-  glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(vertices.size() * sizeof(OccluderVertex)),
-                  vertices.data());
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(vertices.size() / 4 * 6), GL_UNSIGNED_INT, nullptr);
+  const std::vector<OccluderVertex>& vertices = window->occluders.select(face, eye);
+  for (size_t first = 0; first < vertices.size(); first += batch_vertices) {
+    const size_t count = std::min(batch_vertices, vertices.size() - first);
+    glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(count * sizeof(OccluderVertex)),
+                    &vertices[first]);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count / 4 * 6), GL_UNSIGNED_INT, nullptr);
+  }
 }
 
 void Panorama::State::build_pyramid() {
   reduce.use();
   glUniform1i(reduce.uniform("depth"), 0);
-  int offset = 0, size = options.resolution;
+  int offset = 0, size = resolution;
   int from_offset = 0;
   for (int level = 1; level <= levels; ++level) {
     const int next = std::max(size / 4, 1);
@@ -143,14 +167,15 @@ void Panorama::State::build_pyramid() {
   }
 }
 
-void Panorama::State::test(const Program& program, size_t items, const glm::vec3& eye) {
+void Panorama::State::test(const Program& program, size_t items, const glm::vec3& eye,
+                           const glm::vec3& half_extent_m) {
   if (items == 0) return;
   program.use();
   glUniform1i(program.uniform("depth"), 0);
   glUniform3fv(program.uniform("eye"), 1, glm::value_ptr(eye));
-  glUniform3fv(program.uniform("half_extent"), 1, glm::value_ptr(options.half_extent_m));
+  glUniform3fv(program.uniform("half_extent"), 1, glm::value_ptr(half_extent_m));
   glUniform1f(program.uniform("near"), near_m);
-  glUniform1i(program.uniform("resolution"), options.resolution);
+  glUniform1i(program.uniform("resolution"), resolution);
   glUniform1i(program.uniform("levels"), levels);
   glUniform1i(program.uniform("objects"), static_cast<GLint>(objects));
   glUniform1i(program.uniform("slices"), static_cast<GLint>(vertical_slices));
@@ -160,8 +185,8 @@ void Panorama::State::test(const Program& program, size_t items, const glm::vec3
 }
 
 Panorama::Panorama(const std::vector<Box>& object_boxes, const SliceBoxes& slices,
-                   const std::vector<Ring>& rings, const PanoramaOptions& options)
-    : state_(std::make_unique<State>(rings, options)) {
+                   const std::vector<WindowOccluders>& windows, int resolution)
+    : state_(std::make_unique<State>(windows, resolution)) {
   State& s = *state_;
   s.make_targets();
   s.make_quads();
@@ -185,7 +210,7 @@ Panorama::Panorama(const std::vector<Box>& object_boxes, const SliceBoxes& slice
   glClearDepth(0.0);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_CLIP_DISTANCE0);
-  glViewport(0, 0, options.resolution, options.resolution);
+  glViewport(0, 0, resolution, resolution);
 }
 
 Panorama::~Panorama() = default;
@@ -197,19 +222,22 @@ void Panorama::begin_cell() {
                   s.unseen.data());
 }
 
-void Panorama::add_part(const glm::vec3& center) {
+void Panorama::add_part(const glm::vec3& center, const glm::dvec3& half_extent_m) {
   State& s = *state_;
+  State::Window* window = s.smallest_around(half_extent_m);
   s.draw.use();
   glUniform1f(s.draw.uniform("near"), near_m);
   glBindVertexArray(s.quads.id());
   glBindBuffer(GL_ARRAY_BUFFER, s.quad_vertices.id());
-  for (int face = 0; face < face_count; ++face) s.draw_face(face, center);
+  for (int face = 0; face < face_count; ++face) s.draw_face(face, center, window);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);  // the faces are read now
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D_ARRAY, s.depth.id());
   s.build_pyramid();
-  s.test(s.test_objects, s.objects, center);
-  s.test(s.test_slices, s.vertical_slices, center);
+  // T2 with the window that the occluders hide for: what they hide from all of it, they hide from the part.
+  const glm::vec3 hidden_for(window == nullptr ? glm::dvec3(0) : window->half_extent_m);
+  s.test(s.test_objects, s.objects, center, hidden_for);
+  s.test(s.test_slices, s.vertical_slices, center, hidden_for);
 }
 
 const Occlusion& Panorama::finish_cell() {
@@ -225,7 +253,7 @@ const Occlusion& Panorama::finish_cell() {
 
 std::vector<float> Panorama::read_face(int face) const {
   const State& s = *state_;
-  const auto r = static_cast<size_t>(s.options.resolution);
+  const auto r = static_cast<size_t>(s.resolution);
   std::vector<float> all(face_count * r * r);
   glBindTexture(GL_TEXTURE_2D_ARRAY, s.depth.id());
   glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_DEPTH_COMPONENT, GL_FLOAT, all.data());

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scene/box.h"
-#include "worker/shrink.h"
+#include "worker/occluders.h"
 #include "worker/slices.h"
 
 namespace veduta {
@@ -18,25 +18,23 @@ struct Occlusion {
       occluded;  ///< [vertical slices] how many of the lowest z-slices are hidden from every part
 };
 
-struct PanoramaOptions {
-  int resolution = 512;        ///< R: pixels along the edge of a cube face, a power of two
-  glm::vec3 half_extent_m{0};  ///< e: of a part, eye margin included; the one that the rings were shrunk for
-};
-
 /// Holds a city's occluders and test boxes in GL buffers. Needs a current GL 4.3 context, the same for its
 /// whole life.
 class Panorama {
  public:
-  /// `object_boxes` [N] m; `slices` as made by slice_boxes for the same objects.
-  Panorama(const std::vector<Box>& object_boxes, const SliceBoxes& slices, const std::vector<Ring>& rings,
-           const PanoramaOptions& options);
+  /// `object_boxes` [N] m; `slices` as made by slice_boxes for the same objects; `windows`: occluders for
+  /// every size of parts; `resolution`: R, pixels along the edge of a cube face, a power of two, for which
+  /// the occluders were made.
+  Panorama(const std::vector<Box>& object_boxes, const SliceBoxes& slices,
+           const std::vector<WindowOccluders>& windows, int resolution);
   ~Panorama();
 
   /// Forgets what was found: everything counts as hidden until a part sees it.
   void begin_cell();
-  /// Draws the occluders around the centre of a part and unites what it sees with what the others saw. Does
-  /// not wait.
-  void add_part(const glm::vec3& center);
+  /// Draws the occluders of the smallest window that holds a part of this half-extent (eye margin included)
+  /// around its centre, and unites what the part sees with what the others saw. Where no window holds it,
+  /// nothing is hidden from it. Does not wait.
+  void add_part(const glm::vec3& center, const glm::dvec3& half_extent_m);
   /// Reads all answers of the cell back, at once.
   const Occlusion& finish_cell();
 

@@ -6,9 +6,9 @@
 
 #include "scene/error.h"
 #include "scene/import.h"
-#include "worker/free_space.h"
 #include "worker/seed_grid.h"
 #include "worker/seed_region.h"
+#include "worker/shrinker.h"
 #include "worker/slices.h"
 #include "worker/view_cells.h"
 
@@ -43,28 +43,32 @@ WalkCells walk_options(const Settings& settings, const Scene& scene) {
   return options;
 }
 
-std::vector<Ring> shrink(const Settings& settings, const Scene& scene, const BitGrid& sealed,
-                         const std::vector<Box>& cells) {
+std::vector<WindowOccluders> shrink(const Settings& settings, const Scene& scene, SeedRegion region,
+                                    const std::vector<Box>& cells) {
   ShrinkRequest request;
-  request.half_extent_m = part_half_extent(settings);
+  request.half_extents_m = {part_half_extent(settings)};
   request.resolution = settings.occlusion.resolution;
   const glm::vec3 extent = scene.bounds().upper - scene.bounds().lower;
   request.reach_m = std::sqrt(extent.x * extent.x + extent.y * extent.y + extent.z * extent.z);
   request.lowest_eye_m = cells.front().lower.z;
   for (const Box& cell : cells) request.lowest_eye_m = std::min<double>(request.lowest_eye_m, cell.lower.z);
-  return SealedShrinker().shrink(sealed, request);
+  const int nx = region.frame().nx, ny = region.frame().ny;
+  const SealedBlock block{std::move(region), all_triangles(scene), 0, nx, 0, ny};
+  return make_shrinker(settings.shrink.method)->shrink(block, request);
 }
 
-void note_rings(const std::vector<Ring>& rings, std::vector<std::string>& notes) {
-  for (const Ring& ring : rings) {
-    notes.push_back(fmt::format("ring h = {:.3f} m up to {:.0f} m: {} occluder boxes, {} triangles", ring.h_m,
-                                ring.depth_limit_m, ring.boxes.size(), 12 * ring.boxes.size()));
+void note_rings(const std::vector<WindowOccluders>& windows, std::vector<std::string>& notes) {
+  for (const WindowOccluders& window : windows) {
+    for (const OccluderRing& ring : window.rings) {
+      notes.push_back(fmt::format("ring h = {:.3f} m up to {:.0f} m: {} occluders, {} triangles", ring.h_m,
+                                  ring.depth_limit_m, ring.occluders.bodies(), ring.occluders.triangles()));
+    }
   }
 }
 
 }  // namespace
 
-glm::vec3 part_half_extent(const Settings& settings) {
+glm::dvec3 part_half_extent(const Settings& settings) {
   const double margin = settings.stereo.eye_margin_m;
   const double horizontal = settings.cells.size_m / (2.0 * settings.occlusion.subdivide) + margin;
   return {horizontal, horizontal, settings.cells.height_m / 2 + margin};
@@ -91,8 +95,7 @@ Prepared prepare(const Settings& settings, const StageProgress& progress) {
   const SeedGrid seeds = seed_test(city.scene, frame);
 
   stage("free space");
-  const SeedRegion region = make_seed_region(city.scene, frame);
-  const BitGrid sealed = sealed_voxels(region);
+  SeedRegion region = make_seed_region(city.scene, frame);
   const BitGrid& free = region.free;
 
   stage("view-cells");
@@ -114,8 +117,8 @@ Prepared prepare(const Settings& settings, const StageProgress& progress) {
   city.triangle_slices = slice_triangles(city.scene, city.slices);
 
   stage("shrink");
-  prepared.rings = shrink(settings, city.scene, sealed, city.cells);
-  note_rings(prepared.rings, prepared.notes);
+  prepared.occluders = shrink(settings, city.scene, std::move(region), city.cells);
+  note_rings(prepared.occluders, prepared.notes);
   if (progress) progress("prepared", stages, stages);
   return prepared;
 }

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "pvs/city.h"
+#include "worker/occluders.h"
 #include "worker/settings.h"
-#include "worker/shrink.h"
 
 namespace veduta {
 
@@ -18,7 +18,7 @@ using StageProgress = std::function<void(const std::string& stage, int done, int
 
 struct Prepared {
   City city;
-  std::vector<Ring> rings;
+  std::vector<WindowOccluders> occluders;
   std::vector<std::string> notes;  ///< what people want to know: counts, sizes, what was dropped; a line each
 };
 
@@ -28,12 +28,12 @@ struct Prepared {
 Prepared prepare(const Settings& settings, const StageProgress& progress = {});
 
 /// Half-extents of the parts that a cell is baked in, eye margin included, m.
-glm::vec3 part_half_extent(const Settings& settings);
+glm::dvec3 part_half_extent(const Settings& settings);
 
 /// Writes prepared/ (city.h5, occluders.bin) into the run directory, under a temporary name first.
 void write_prepared(const std::filesystem::path& run_directory, const Prepared& prepared);
 
 /// What a worker loads. \throw Error(bad_input) when it is damaged.
-std::vector<Ring> read_occluders(const std::filesystem::path& run_directory);
+std::vector<WindowOccluders> read_occluders(const std::filesystem::path& run_directory);
 
 }  // namespace veduta

@@ -1,43 +1,53 @@
-#include <algorithm>
+#include "worker/shrink_sealed.h"
+
 #include <cmath>
 
+#include "worker/box_cover.h"
 #include "worker/free_space.h"
-#include "worker/shrink.h"
 
 namespace veduta {
+namespace {
 
-std::vector<RingErosion> ring_erosions(const ShrinkRequest& request, double voxel_m) {
-  constexpr double sigma = 1.0 / 64;  // sub-pixel snapping of vertices, generous
+/// A window in whole voxels. More erosion than asked is safe.
+struct Erosion {
+  int x = 0, y = 0, z = 0;
+  bool operator==(const Erosion&) const = default;
+};
+
+Erosion whole_voxels(const glm::dvec3& window_m, double voxel_m) {
   const auto voxels = [&](double metres) { return static_cast<int>(std::ceil(metres / voxel_m - 1e-9)); };
-  const glm::dvec3& e = request.half_extent_m;
-  const double widest = std::max(e.x, e.y);
-  std::vector<RingErosion> rings;
-  int n = voxels(widest + 0.25 * voxel_m);
-  for (;;) {
-    RingErosion ring;
-    ring.h_m = n * voxel_m - widest;
-    ring.x = voxels(e.x + ring.h_m), ring.y = voxels(e.y + ring.h_m), ring.z = voxels(e.z + ring.h_m);
-    ring.depth_limit_m = ring.h_m * request.resolution / (1 + sigma);
-    rings.push_back(ring);
-    if (ring.depth_limit_m >= request.reach_m) return rings;
-    // At least one voxel more: where h falls short of the reach by a rounding error, this would else never
-    // end.
-    n = std::max(n + 1,
-                 voxels(widest + std::min(2 * ring.h_m, request.reach_m * (1 + sigma) / request.resolution)));
-  }
+  return {voxels(window_m.x), voxels(window_m.y), voxels(window_m.z)};
 }
 
-std::vector<Ring> SealedShrinker::shrink(const BitGrid& sealed, const ShrinkRequest& request) const {
-  std::vector<Ring> rings;
-  BitGrid eroded = sealed;
-  RingErosion done;  // erosions by boxes add up, so each ring goes on from the one before
-  for (const RingErosion& ring : ring_erosions(request, sealed.frame().size_m)) {
-    erode(eroded, ring.x - done.x, ring.y - done.y, ring.z - done.z);
-    done = ring;
-    rings.push_back(
-        {ring.h_m, static_cast<float>(ring.depth_limit_m), cover_with_boxes(eroded, request.lowest_eye_m)});
+WindowOccluders shrink_by(BitGrid space, const ColumnRange& own, const glm::dvec3& half_extent_m,
+                          const ShrinkRequest& request) {
+  WindowOccluders window{half_extent_m, {}};
+  Erosion done;  // erosions by boxes add up, so each ring goes on from the one before
+  for (const RingWindow& ring : ring_windows(half_extent_m, request.resolution, request.reach_m)) {
+    const Erosion erosion = whole_voxels(half_extent_m + ring.h_m, space.frame().size_m);
+    OccluderMesh occluders;
+    if (erosion == done && !window.rings.empty()) {
+      occluders = window.rings.back().occluders;
+    } else {
+      erode(space, erosion.x - done.x, erosion.y - done.y, erosion.z - done.z);
+      done = erosion;
+      for (const Box& box : cover_with_boxes(space, own, request.lowest_eye_m)) occluders.add_box(box);
+    }
+    window.rings.push_back({ring.h_m, static_cast<float>(ring.depth_limit_m), std::move(occluders)});
   }
-  return rings;
+  return window;
+}
+
+}  // namespace
+
+std::vector<WindowOccluders> SealedShrinker::shrink(const SealedBlock& block,
+                                                    const ShrinkRequest& request) const {
+  const BitGrid sealed = sealed_voxels(block.region);
+  const ColumnRange own{block.i0, block.i1, block.j0, block.j1};
+  std::vector<WindowOccluders> windows;
+  for (const glm::dvec3& half_extent_m : request.half_extents_m)
+    windows.push_back(shrink_by(sealed, own, half_extent_m, request));
+  return windows;
 }
 
 }  // namespace veduta

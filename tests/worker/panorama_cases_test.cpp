@@ -96,11 +96,12 @@ TEST_F(PanoramaCase, NothingIsDrawnBeyondARingsLimit) {
   // A wall along the view crosses the limit: what is nearer is drawn, what is farther is not.
   constexpr float limit = 15;
   test::World world;
-  world.rings.push_back({0.25, limit, {Box{{5, 4, -2}, {40, 6, 9}}, Box{{16, -9, -2}, {18, -2, 9}}}});
+  world.rings.push_back(
+      {0.25, limit, test::mesh_of({{{5, 4, -2}, {40, 6, 9}}, {{16, -9, -2}, {18, -2, 9}}})});
   world.objects.push_back(wall);
   Panorama p = world.panorama();
   p.begin_cell();
-  p.add_part(eye);
+  p.add_part(eye, {});
   float farthest = 0;
   for (int face = 0; face < face_count; ++face) {
     for (const float value : p.read_face(face)) {
@@ -126,8 +127,9 @@ TEST_F(PanoramaCase, AnEmptyCityIsAllVisible) {
 TEST_F(PanoramaCase, AnOccludedHeightIsThatOfTheHorizon) {
   test::World world;
   world.rings.push_back(
-      {0.25, 100, {Box{{10, -30, -2}, {12, 30, 5.7f}}}});  // rises 4 m above the eye in 10: 8 m in 20
-  world.object({{20, -4, 0}, {20.5f, 4, 20}});             // hidden up to 9.7 m, less a pixel or two
+      {0.25, 100,
+       test::mesh_of({{{10, -30, -2}, {12, 30, 5.7f}}})});  // rises 4 m above the eye in 10: 8 m in 20
+  world.object({{20, -4, 0}, {20.5f, 4, 20}});              // hidden up to 9.7 m, less a pixel or two
   world.resolution = 512;
   world.slice({1, 2, 20});
   const Occlusion occlusion = world.occlusion({eye});

@@ -28,12 +28,12 @@ class GlTest : public testing::Test {
 
 /// Occluders, objects as boxes and their slices.
 struct World {
-  std::vector<Ring> rings;
+  std::vector<OccluderRing> rings;
   Mesh mesh;
   std::vector<Box> objects;
   SliceBoxes slices;
   int resolution = 64;
-  glm::vec3 half_extent_m{0};
+  glm::dvec3 half_extent_m{0};
 
   void object(const Box& box) {
     mesh.object();
@@ -45,7 +45,7 @@ struct World {
     const std::vector<SliceCounts> all(objects.size(), counts);
     slices = slice_boxes(mesh.scene, all, slice_triangles(mesh.scene, all));
   }
-  Panorama panorama() const { return Panorama(objects, slices, rings, {resolution, half_extent_m}); }
+  Panorama panorama() const { return {objects, slices, {{half_extent_m, rings}}, resolution}; }
   reference::Panorama reference(const glm::vec3& eye) const {
     return {rings, resolution, glm::dvec3(eye), Panorama::near_m};
   }
@@ -54,16 +54,22 @@ struct World {
   Occlusion occlusion(const std::vector<glm::vec3>& centers) const {
     Panorama p = panorama();
     p.begin_cell();
-    for (const glm::vec3& center : centers) p.add_part(center);
+    for (const glm::vec3& center : centers) p.add_part(center, half_extent_m);
     return p.finish_cell();
   }
 };
+
+inline OccluderMesh mesh_of(const std::vector<Box>& boxes) {
+  OccluderMesh mesh;
+  for (const Box& box : boxes) mesh.add_box(box);
+  return mesh;
+}
 
 /// Is one object hidden behind these occluders, from a single part?
 inline bool hidden_behind(const std::vector<Box>& occluders, const Box& object, const glm::vec3& eye,
                           const glm::vec3& half_extent_m = glm::vec3(0), float depth_limit_m = 1000) {
   World world;
-  world.rings.push_back({0.25, depth_limit_m, occluders});
+  world.rings.push_back({0.25, depth_limit_m, mesh_of(occluders)});
   world.objects.push_back(object);
   world.half_extent_m = half_extent_m;
   return world.occlusion({eye}).visible[0] == 0;
@@ -83,7 +89,7 @@ inline World random_world(const WorldOptions& options) {
   Random random(options.seed);
   World world;
   world.half_extent_m = {0.5f, 0.4f, 0.25f};
-  Ring near{0.25, 25, {}}, far{0.75, 500, {}};
+  OccluderRing near{0.25, 25, {}}, far{0.75, 500, {}};
   for (int b = 0; b < options.occluders; ++b) {
     const double angle = random.real(0, 6.283), distance = random.real(6, 70);
     const glm::vec3 c(distance * std::cos(angle), distance * std::sin(angle), 0);
@@ -92,10 +98,10 @@ inline World random_world(const WorldOptions& options) {
     Box box{c - half, c + half};
     box.lower.z = random.chance(options.floating) ? static_cast<float>(random.real(2.6, 4)) : -1.0f;
     box.upper.z = box.lower.z + static_cast<float>(random.real(2, 16));
-    near.boxes.push_back(box);
+    near.occluders.add_box(box);
     if (std::min(half.x, half.y) < 1.5f) continue;
     box.lower += glm::vec3(0.5f, 0.5f, 0), box.upper -= 0.5f;
-    far.boxes.push_back(box);
+    far.occluders.add_box(box);
   }
   world.rings = {near, far};
   for (int o = 0; o < options.objects; ++o) {

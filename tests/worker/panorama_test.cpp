@@ -39,7 +39,7 @@ struct DepthDifferences {
 DepthDifferences compare_depths(const World& world, const glm::vec3& eye) {
   Panorama gl = world.panorama();
   gl.begin_cell();
-  gl.add_part(eye);
+  gl.add_part(eye, world.half_extent_m);
   const reference::Panorama reference = world.reference(eye);
   DepthDifferences d;
   for (int face = 0; face < face_count; ++face) {
@@ -100,7 +100,7 @@ uint32_t occluded_height(const World& world, const VerticalSlice& slice, const r
   uint32_t height = 0;
   for (uint32_t h = 0; h < slice.heights; ++h) {
     const Box& box = world.slices.boxes[slice.first_box + h];
-    if (box.empty() || p.hidden(box, glm::dvec3(world.half_extent_m), strictness)) {
+    if (box.empty() || p.hidden(box, world.half_extent_m, strictness)) {
       height = h + 1;
     } else if (!highest) {
       break;
@@ -117,7 +117,7 @@ struct Bracket {
 Bracket bracket(const World& world, const glm::vec3& eye) {
   const Occlusion occlusion = world.occlusion({eye});
   const reference::Panorama p = world.reference(eye);
-  const glm::dvec3 e(world.half_extent_m);
+  const glm::dvec3 e = world.half_extent_m;
   Bracket b;
   for (size_t o = 0; o < world.objects.size(); ++o) {
     const bool hidden = occlusion.visible[o] == 0, strictly = p.hidden(world.objects[o], e, strict);
@@ -206,7 +206,7 @@ TEST_F(PanoramaTest, AnswersDoNotDependOnWhatWasAskedBefore) {
   for (const std::vector<glm::vec3>& centers :
        {std::vector{eyes[2]}, {eyes[0], eyes[1]}, {eyes[1], eyes[0]}}) {
     again.begin_cell();
-    for (const glm::vec3& center : centers) again.add_part(center);
+    for (const glm::vec3& center : centers) again.add_part(center, world.half_extent_m);
     const Occlusion& now = again.finish_cell();
     if (centers.size() == 1) continue;
     EXPECT_EQ(now.visible, first.visible);

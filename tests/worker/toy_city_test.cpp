@@ -64,7 +64,7 @@ class ToyCity {
     file_pvs_.city = prepared.city;
     file_pvs_.row_begin.push_back(0);
     try {
-      Baker baker(prepared.city, prepared.rings, settings_, "software");
+      Baker baker(prepared.city, prepared.occluders, settings_, "software");
       for (uint32_t cell = 0; cell < baker.cell_count(); ++cell) {
         const CellRecord record = baker.bake(cell);
         file_pvs_.cell_row.push_back(cell);

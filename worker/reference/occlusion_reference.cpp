@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "worker/cube_face.h"
 
@@ -21,42 +23,62 @@ FaceBox face_box(int face, const glm::dvec3& lower, const glm::dvec3& upper) {
   return {glm::min(a, b), glm::max(a, b)};
 }
 
-/// Planar depth at which the ray (x, y, 1) * depth enters the box, infinity if it does not or if it starts
-/// inside of it.
-double entry_depth(const FaceBox& box, double x, double y) {
-  double enter = -infinity, leave = infinity;
-  const glm::dvec3 direction(x, y, 1);
-  for (int a = 0; a < 3; ++a) {
-    if (direction[a] == 0) {
-      if (box.lower[a] > 0 || box.upper[a] < 0) return infinity;
-      continue;
-    }
-    const double t0 = box.lower[a] / direction[a], t1 = box.upper[a] / direction[a];
-    enter = std::max(enter, std::min(t0, t1)), leave = std::min(leave, std::max(t0, t1));
-  }
-  return enter <= leave && enter > 0 ? enter : infinity;
+glm::dvec3 area_vector(const std::vector<glm::dvec3>& polygon) {
+  glm::dvec3 sum(0);
+  for (size_t c = 1; c + 1 < polygon.size(); ++c)
+    sum += glm::cross(polygon[c] - polygon[0], polygon[c + 1] - polygon[0]);
+  return sum;
 }
 
 }  // namespace
 
-Panorama::Panorama(const std::vector<Ring>& rings, int resolution, const glm::dvec3& eye, double near_m)
+Panorama::Panorama(const std::vector<OccluderRing>& rings, int resolution, const glm::dvec3& eye,
+                   double near_m)
     : size_(resolution),
       eye_(eye),
       near_m_(near_m),
       depth_(static_cast<size_t>(face_count) * resolution * resolution, infinity) {
   for (int face = 0; face < face_count; ++face) {
-    for (const Ring& ring : rings) {
-      for (const Box& world : ring.boxes) {
-        const FaceBox box = face_box(face, glm::dvec3(world.lower) - eye, glm::dvec3(world.upper) - eye);
-        if (box.upper.z <= 0) continue;
-        for (int y = 0; y < size_; ++y) {
-          for (int x = 0; x < size_; ++x) {
-            const double depth = entry_depth(box, (2 * x + 1.0) / size_ - 1, (2 * y + 1.0) / size_ - 1);
-            double& nearest = depth_[(static_cast<size_t>(face) * size_ + y) * size_ + x];
-            if (depth >= near_m && depth <= ring.depth_limit_m) nearest = std::min(nearest, depth);
-          }
-        }
+    const glm::dmat3 rotation(face_from_world(face));
+    for (const OccluderRing& ring : rings) {
+      const OccluderMesh& mesh = ring.occluders;
+      for (size_t f = 0; f < mesh.faces(); ++f) {
+        std::vector<glm::dvec3> polygon;
+        for (uint32_t c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c)
+          polygon.push_back(rotation * (glm::dvec3(mesh.corners[c]) - eye));
+        draw(face, polygon, ring.depth_limit_m);
       }
+    }
+  }
+}
+
+void Panorama::draw(int face, const std::vector<glm::dvec3>& polygon, double depth_limit_m) {
+  const glm::dvec3 normal = area_vector(polygon);
+  const double away = glm::dot(normal, polygon[0]);
+  if (away >= 0) return;  // turned away
+  // The planes through the eye and each side. The polygon is closed: rounding leaves no crack to the next.
+  std::vector<glm::dvec3> sides;
+  for (size_t c = 0; c < polygon.size(); ++c)
+    sides.push_back(glm::normalize(glm::cross(polygon[c], polygon[(c + 1) % polygon.size()])));
+  // The pixels that it can touch: all, unless all of it is before the eye.
+  glm::dvec2 lower(-1), upper(1);
+  if (std::all_of(polygon.begin(), polygon.end(), [](const glm::dvec3& c) { return c.z > 1e-6; })) {
+    std::swap(lower, upper);
+    for (const glm::dvec3& c : polygon)
+      lower = glm::min(lower, glm::dvec2(c) / c.z), upper = glm::max(upper, glm::dvec2(c) / c.z);
+  }
+  const auto pixel = [&](double ratio) {
+    return static_cast<int>(std::floor((std::clamp(ratio, -1.0, 1.0) + 1) * 0.5 * size_));
+  };
+  for (int y = std::max(pixel(lower.y) - 1, 0); y <= std::min(pixel(upper.y) + 1, size_ - 1); ++y) {
+    for (int x = std::max(pixel(lower.x) - 1, 0); x <= std::min(pixel(upper.x) + 1, size_ - 1); ++x) {
+      const glm::dvec3 direction((2 * x + 1.0) / size_ - 1, (2 * y + 1.0) / size_ - 1, 1);
+      const bool meets = std::all_of(sides.begin(), sides.end(), [&](const glm::dvec3& side) {
+        return !(glm::dot(side, direction) > 1e-12);
+      });
+      const double depth = away / glm::dot(normal, direction);
+      double& nearest = depth_[(static_cast<size_t>(face) * size_ + y) * size_ + x];
+      if (meets && depth >= near_m_ && depth <= depth_limit_m) nearest = std::min(nearest, depth);
     }
   }
 }

@@ -1,10 +1,10 @@
-// The panorama as a slow CPU kernel: one ray a pixel against every box, in double; every pixel of an occludee
-// looked at.
+// The panorama as a slow CPU kernel: one ray a pixel against every polygon of every occluder, in double;
+// every pixel of an occludee looked at.
 #pragma once
 
 #include <vector>
 
-#include "worker/shrink.h"
+#include "worker/occluders.h"
 
 namespace veduta::reference {
 
@@ -16,7 +16,7 @@ struct Strictness {
 
 class Panorama {
  public:
-  Panorama(const std::vector<Ring>& rings, int resolution, const glm::dvec3& eye, double near_m);
+  Panorama(const std::vector<OccluderRing>& rings, int resolution, const glm::dvec3& eye, double near_m);
 
   /// Planar depth at which the ray through the pixel's centre meets an occluder, m; infinity for none. Faces
   /// as cube_face.h.
@@ -28,6 +28,8 @@ class Panorama {
   bool hidden(const Box& box, const glm::dvec3& half_extent_m, const Strictness& strictness) const;
 
  private:
+  void draw(int face, const std::vector<glm::dvec3>& polygon, double depth_limit_m);
+
   int size_;
   glm::dvec3 eye_;
   double near_m_;
