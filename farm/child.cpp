@@ -9,9 +9,11 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <sstream>
+#include <thread>
 
 #include "scene/error.h"
 
@@ -19,6 +21,8 @@ extern char** environ;
 
 namespace veduta {
 namespace {
+
+constexpr auto patience_to_leave = std::chrono::seconds(5), patience_to_die = std::chrono::seconds(5);
 
 [[noreturn]] void cannot_start(const std::string& program, const char* what) {
   throw Error(ExitStatus::input_output,
@@ -134,9 +138,24 @@ std::string Child::read_text() {
 }
 
 std::string Child::reap(bool kill) {
+  using Clock = std::chrono::steady_clock;
   if (pid_ > 0) {
     if (kill) ::kill(pid_, SIGKILL);
-    while (waitpid(pid_, &wait_status_, 0) < 0 && errno == EINTR) {
+    bool killed = kill;
+    const auto gone_within = [&](Clock::duration patience) {
+      const auto end = Clock::now() + patience;
+      for (;;) {
+        const pid_t reaped = waitpid(pid_, &wait_status_, WNOHANG);
+        if (reaped != 0 && !(reaped < 0 && errno == EINTR)) return true;
+        if (Clock::now() > end) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+    };
+    // A child that closed its output and lives on is stuck on its way out.
+    if (!killed && !gone_within(patience_to_leave)) ::kill(pid_, SIGKILL), killed = true;
+    if (killed && !gone_within(patience_to_die)) {
+      pid_ = -1, wait_status_ = SIGKILL;
+      return "not ending, although it was killed: it waits for a disk or a driver";
     }
     pid_ = -1;
   }

@@ -39,7 +39,8 @@ class Child {
   std::optional<Frame> next() { return frames_.next(); }
   /// Whatever it wrote that is no frame, for commands that print text.
   std::string read_text();
-  /// Reaps it (killing it first if `kill`): "exit status 3", "signal 11 (Segmentation fault)". Idempotent.
+  /// Reaps it (killing it first if `kill`, and when it has not left within 5 s): "exit status 3", "signal 11
+  /// (Segmentation fault)". Waits 10 s at most. Idempotent.
   std::string reap(bool kill);
   /// The exit status, -1 when a signal ended it; only after reap().
   int exit_status() const;
