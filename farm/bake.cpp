@@ -89,7 +89,7 @@ void serve_guarded(const BakeOptions& options, Transport& transport) {
   try {
     const RankShare share = rank_share(transport, options.workers, options.gpu);
     GuardedShepherd shepherd(transport, {run_paths(options), share.workers, share.threads_per_worker,
-                                         options.gpu, options.cell_timeout_s});
+                                         share.cores, options.gpu, options.cell_timeout_s});
     return serve(transport, shepherd);
   } catch (const Error& error) {
     failed.status = static_cast<int32_t>(error.status()), failed.message = FixedText<1600>(error.what());
@@ -180,8 +180,8 @@ int bake_as_first(const BakeOptions& options, Transport& transport) {
              fmt::format("this rank may use {} of {} cores; mpirun --bind-to none lets it use all",
                          share.cores, share.machine_cores));
   Coordinator coordinator(transport, {run, fingerprint.hash, share.workers}, log, progress);
-  GuardedShepherd shepherd(
-      transport, {run, share.workers, share.threads_per_worker, options.gpu, options.cell_timeout_s});
+  GuardedShepherd shepherd(transport, {run, share.workers, share.threads_per_worker, share.cores, options.gpu,
+                                       options.cell_timeout_s});
   const auto failure = coordinate(transport, coordinator, shepherd);
   progress.clear();
   BakeEnd end{run,   fingerprint.hash,    coordinator.tally(), transport.size(), share.workers,

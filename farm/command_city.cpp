@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "farm/commands.h"
-#include "farm/peak_memory.h"
 #include "farm/progress.h"
 #include "scene/city/make_city.h"
+#include "scene/peak_memory.h"
 #include "scene/writers/write_model.h"
 
 namespace veduta {

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "farm/commands.h"
-#include "farm/peak_memory.h"
 #include "scene/import.h"
+#include "scene/peak_memory.h"
 
 namespace veduta {
 namespace {

@@ -35,7 +35,7 @@ void Coordinator::start() {
   log_.info("started", json{{"attempt", tally_.attempt}, {"ranks", transport_.size()}});
   if (city) return begin_baking();
   phase_ = Phase::preparing;
-  transport_.send(0, PrepareMessage{});
+  preparing_.emplace(transport_, log_, progress_, now_s());
 }
 
 /// What the journal holds: these cells are not baked again.
@@ -73,10 +73,12 @@ void Coordinator::handle(int from, const Message& message) {
   if (const auto* ready = std::get_if<ReadyMessage>(&message)) {
     workers_ += ready->workers;
     ready_.insert(from);
-  } else if (const auto* stage = std::get_if<StageMessage>(&message)) {
-    progress_.stage(stage->stage.text(), stage->done, stage->total);
+  } else if (const auto* waiting = std::get_if<WaitingMessage>(&message)) {
+    if (preparing_) preparing_->on_waiting({from, static_cast<int>(waiting->slot)}, *waiting);
   } else if (const auto* prepared = std::get_if<PreparedMessage>(&message)) {
-    on_prepared(*prepared);
+    if (!preparing_) return;
+    preparing_->on_prepared({from, static_cast<int>(prepared->slot)}, *prepared, now_s());
+    if (preparing_->complete()) on_preparation_complete();
   } else if (const auto* idle = std::get_if<IdleMessage>(&message)) {
     on_idle({from, static_cast<int>(idle->slot)}, *idle);
   } else if (const auto* cell = std::get_if<CellMessage>(&message)) {
@@ -97,15 +99,18 @@ void Coordinator::handle(int from, const Message& message) {
   }
 }
 
-void Coordinator::on_prepared(const PreparedMessage& message) {
-  tally_.city = {message.cells, message.objects, message.triangles};
+void Coordinator::on_preparation_complete() {
+  tally_.city = preparing_->city();
+  tally_.stages = preparing_->stages();
+  preparing_.reset();
   tally_.prepare_s = now_s();
-  log_.info("prepared", json{{"cells", message.cells},
-                             {"objects", message.objects},
-                             {"triangles", message.triangles},
+  log_.info("prepared", json{{"cells", tally_.city.cells},
+                             {"objects", tally_.city.objects},
+                             {"triangles", tally_.city.triangles},
                              {"elapsed_s", tally_.prepare_s}});
-  progress_.note(fmt::format("prepared {} view-cells, {} objects, {} triangles in {:.1f} s", message.cells,
-                             message.objects, message.triangles, tally_.prepare_s));
+  progress_.note(fmt::format("prepared {} view-cells, {} objects, {} triangles in {:.1f} s ({})",
+                             tally_.city.cells, tally_.city.objects, tally_.city.triangles, tally_.prepare_s,
+                             stages_text(tally_.stages)));
   read_done_cells();
   write_city_counts(options_.run, tally_.city);
   if (phase_ == Phase::preparing) begin_baking();
@@ -139,14 +144,17 @@ void Coordinator::on_lost(WorkerId worker, const LostMessage& message) {
             fmt::format("worker {} of rank {} ended: {}", worker.slot, worker.rank, message.reason.text()));
   const auto poison = book_ && message.lease != 0 ? book_->lease_lost(message.lease, true) : std::nullopt;
   if (poison) record_all_visible(*poison, message.reason.text());
-  if (message.given_up == 0) return;
-  ++given_up_;
+  given_up_ += message.given_up;
+  const auto condemned = preparing_ ? preparing_->on_lost(worker, message) : std::nullopt;
   const bool none_left = ready_.size() == static_cast<size_t>(transport_.size()) && given_up_ == workers_;
-  if (!none_left && !(phase_ == Phase::preparing && worker == WorkerId{0, 0})) return;
+  if (!condemned && !none_left) return;
   throw Error(
       ExitStatus::defect,
       fmt::format("{}: {} ended its worker three times: {}; see {}", options_.run.directory.string(),
-                  phase_ == Phase::preparing ? "the preparation" : "opening the city", message.reason.text(),
+                  condemned    ? fmt::format("the preparation ({})", *condemned)
+                  : preparing_ ? "the preparation"
+                               : "opening the city",
+                  message.reason.text(),
                   worker_log(options_.run, tally_.attempt, worker.rank, static_cast<uint32_t>(worker.slot))
                       .string()));
 }
@@ -188,6 +196,7 @@ void Coordinator::hand_out() {
 void Coordinator::tick(bool stop) {
   if (phase_ == Phase::finishing) return;
   if (stop) return finish(true);
+  if (preparing_) preparing_->tick();
   if (phase_ != Phase::baking) return;
   if (book_->complete()) return finish(false);
   hand_out();

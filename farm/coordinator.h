@@ -9,6 +9,7 @@
 
 #include "farm/leases.h"
 #include "farm/log.h"
+#include "farm/preparing.h"
 #include "farm/progress.h"
 #include "farm/run_directory.h"
 #include "farm/transport.h"
@@ -30,6 +31,7 @@ struct BakeTally {
   uint64_t done = 0, all_visible = 0, retries = 0;
   uint64_t bake_us = 0;  ///< summed over cells of this attempt
   double prepare_s = 0, bake_s = 0;
+  std::vector<StageTally> stages;  ///< of the preparation; empty when it was done before
   std::set<std::string> renderers;
   bool complete() const { return city.cells > 0 && done == city.cells; }
 };
@@ -57,7 +59,7 @@ class Coordinator {
 
   void begin_baking();
   void read_done_cells();
-  void on_prepared(const PreparedMessage& message);
+  void on_preparation_complete();
   void on_idle(WorkerId worker, const IdleMessage& message);
   void on_cell(const CellMessage& message);
   void on_lost(WorkerId worker, const LostMessage& message);
@@ -72,6 +74,7 @@ class Coordinator {
   Progress& progress_;
   BakeTally tally_;
   Phase phase_ = Phase::starting;
+  std::optional<Preparing> preparing_;
   std::unique_ptr<LeaseBook> book_;
   std::vector<bool> done_;
   std::set<WorkerId> idle_, open_;  ///< waiting for a lease; with a city loaded

@@ -45,6 +45,18 @@ json merge_in_child(const BakeEnd& end) {
   throw Error(static_cast<ExitStatus>(child.exit_status()), message);
 }
 
+json stages_of(const BakeTally& tally) {
+  json stages = json::array();
+  for (const StageTally& stage : tally.stages)
+    stages.push_back({{"stage", name_of(stage.stage)},
+                      {"parts", stage.parts},
+                      {"runs", stage.runs},
+                      {"elapsed_s", stage.seconds},
+                      {"worker_s", stage.worker_s},
+                      {"peak_mb", stage.peak_mb}});
+  return stages;
+}
+
 json report_of(const BakeEnd& end, const json& merged) {
   const BakeTally& tally = end.tally;
   const auto baked_now = tally.done - tally.resumed;
@@ -60,6 +72,7 @@ json report_of(const BakeEnd& end, const json& merged) {
               {"cells_of_this_attempt", baked_now},
               {"retries", tally.retries},
               {"prepare_s", tally.prepare_s},
+              {"preparation", stages_of(tally)},
               {"bake_s", tally.bake_s},
               {"mean_cell_ms",
                baked_now ? static_cast<double>(tally.bake_us) / 1000 / static_cast<double>(baked_now) : 0},

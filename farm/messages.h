@@ -10,6 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include "worker/protocol.h"
+
 namespace veduta {
 
 /// Text of bounded length; longer text is cut at the end.
@@ -28,13 +30,17 @@ struct FixedText {
 
 // --- coordinator to shepherd
 // -----------------------------------------------------------------------------------------
-struct StartMessage {  ///< begin: start the children; they may be told to prepare or to open
+struct StartMessage {  ///< begin: start the children; they say when they wait for a part of the preparation
   static constexpr uint32_t verb = 1;
   uint32_t attempt = 0;
   FixedText<64> fingerprint;
 };
-struct PrepareMessage {  ///< to the shepherd beside the coordinator: slot 0 makes prepared/
+struct PrepareMessage {  ///< a part of the preparation for the child that waits in `slot`
   static constexpr uint32_t verb = 2;
+  uint32_t slot = 0;
+  uint32_t life = 0;  ///< of WaitingMessage: when that child died meanwhile, its successor does not begin
+  uint32_t stage = 0, part = 0;
+  uint32_t after_death = 0;  ///< its last holder died over it
 };
 struct OpenMessage {  ///< prepared/ is there: every child opens it
   static constexpr uint32_t verb = 3;
@@ -58,14 +64,19 @@ struct ReadyMessage {  ///< the shepherd has started `workers` children
   static constexpr uint32_t verb = 16;
   uint32_t workers = 0;
 };
-struct StageMessage {  ///< the preparation goes on
+struct WaitingMessage {  ///< the child can do a part of the preparation
   static constexpr uint32_t verb = 17;
-  uint64_t done = 0, total = 0;
-  FixedText<64> stage;
+  uint32_t slot = 0;
+  uint32_t life = 0;  ///< how many children the slot has had
 };
-struct PreparedMessage {
+struct PreparedMessage {  ///< the part is done. A WaitingMessage follows
   static constexpr uint32_t verb = 18;
-  uint64_t cells = 0, objects = 0, triangles = 0;
+  uint32_t slot = 0;
+  uint32_t tiles = 0, blocks = 0;                  ///< of the import
+  uint64_t cells = 0, objects = 0, triangles = 0;  ///< of the finish
+  uint32_t again_count = 0;                        ///< of the flood: tiles to be flooded again
+  std::array<uint32_t, neighbour_limit> again{};
+  double seconds = 0, peak_mb = 0;
 };
 struct IdleMessage {  ///< the child has opened the city and waits for a lease
   static constexpr uint32_t verb = 19;
@@ -86,6 +97,7 @@ struct LostMessage {  ///< a child died; `lease` is 0 when it held none. `given_
   static constexpr uint32_t verb = 22;
   uint64_t lease = 0;
   uint32_t slot = 0, given_up = 0;
+  uint32_t preparing = 0;  ///< it had begun a part of the preparation
   FixedText<400> reason;
 };
 struct FailedMessage {  ///< an error that trying again does not mend: the bake stops with it
@@ -103,7 +115,7 @@ struct LeftMessage {  ///< children gone, shards synced and closed
 
 using Message =
     std::variant<StartMessage, PrepareMessage, OpenMessage, GrantMessage, FinishMessage, GoodbyeMessage,
-                 ReadyMessage, StageMessage, PreparedMessage, IdleMessage, CellMessage, LeaseDoneMessage,
+                 ReadyMessage, WaitingMessage, PreparedMessage, IdleMessage, CellMessage, LeaseDoneMessage,
                  LostMessage, FailedMessage, NoteMessage, LeftMessage>;
 
 /// Below the size that OpenMPI sends without waiting for the receiver.

@@ -68,25 +68,43 @@ void Progress::show(const std::string& line, double share) {
   }
 }
 
+void Rate::add(Clock::time_point now, uint64_t done, bool last) {
+  if (window_.empty() || now - window_.back().first > terminal_interval || last)
+    window_.emplace_back(now, done);
+  while (window_.size() > 2 && now - window_.front().first > rate_window) window_.pop_front();
+}
+
+double Rate::per_s(Clock::time_point now, uint64_t done) const {
+  const double passed_s =
+      window_.empty() ? 0 : std::chrono::duration<double>(now - window_.front().first).count();
+  return passed_s > 0.2 ? static_cast<double>(done - window_.front().second) / passed_s : 0;
+}
+
 void Progress::work(const std::string& name, uint64_t done, uint64_t total) {
   if (quiet_) return;
-  if (name != last_stage_) last_share_ = -1;
+  if (name != last_stage_) last_share_ = -1, stage_rate_ = {};
   last_stage_ = name;
+  const auto now = Clock::now();
+  stage_rate_.add(now, done, done == total);
   const double share = total ? static_cast<double>(done) / static_cast<double>(total) : 0;
   // Stages are short: on a plain stream their quarters, and the time that passes, are enough.
   const double coarse_share = terminal_ ? share : std::floor(share * 4) / 4;
-  show(total > 1 ? fmt::format("{} {}/{} ({:.0f} %)", name, done, total, 100 * share) : name, coarse_share);
+  std::string line = name;
+  if (total > 1) line += fmt::format(" {}/{} ({:.0f} %)", done, total, 100 * share);
+  const double rate = total > 1 ? stage_rate_.per_s(now, done) : 0;
+  if (rate > 0)
+    line +=
+        fmt::format(", {:.1f} /s, {} left", rate, duration_text(static_cast<double>(total - done) / rate));
+  show(line, coarse_share);
 }
 
 void Progress::cells(uint64_t done, uint64_t total, uint32_t workers, uint64_t retries) {
   if (quiet_) return;
-  if (window_.empty()) last_share_ = -1;
+  if (!cells_shown_) last_share_ = -1;
+  cells_shown_ = true;
   const auto now = Clock::now();
-  if (window_.empty() || now - window_.back().first > terminal_interval || done == total)
-    window_.emplace_back(now, done);
-  while (window_.size() > 2 && now - window_.front().first > rate_window) window_.pop_front();
-  const double passed_s = std::chrono::duration<double>(now - window_.front().first).count();
-  const double rate = passed_s > 0.2 ? static_cast<double>(done - window_.front().second) / passed_s : 0;
+  cell_rate_.add(now, done, done == total);
+  const double rate = cell_rate_.per_s(now, done);
   show(cells_line(done, total, rate, workers, retries),
        total ? static_cast<double>(done) / static_cast<double>(total) : 1);
 }

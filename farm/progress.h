@@ -12,17 +12,29 @@ namespace veduta {
 /// A line on standard error that does not break the status line of a terminal.
 void say(const std::string& line);
 
+/// How fast something counts, over the last minute.
+class Rate {
+ public:
+  using Clock = std::chrono::steady_clock;
+  /// `done` so far; `last`: there is nothing to come.
+  void add(Clock::time_point now, uint64_t done, bool last);
+  double per_s(Clock::time_point now, uint64_t done) const;  ///< 0 while it is too early to say
+
+ private:
+  std::deque<std::pair<Clock::time_point, uint64_t>> window_;  ///< (time, done)
+};
+
 class Progress {
  public:
   /// \param quiet  say nothing
   explicit Progress(bool quiet);
   ~Progress();
 
-  /// A stage of the preparation.
+  /// A stage of the preparation: "preparing: flood 12/30 (40 %), 3.1 /s, 0:06 left".
   void stage(const std::string& name, uint64_t done, uint64_t total) {
     work("preparing: " + name, done, total);
   }
-  /// Anything that counts: "verifying cells 12/64 (19 %)".
+  /// Anything that counts: "verifying cells 12/64 (19 %), 4.2 /s, 0:12 left". `total` may grow.
   void work(const std::string& name, uint64_t done, uint64_t total);
   void cells(uint64_t done, uint64_t total, uint32_t workers, uint64_t retries);
   /// A line that stays.
@@ -40,7 +52,8 @@ class Progress {
   Clock::time_point last_shown_{}, last_plain_{};
   double last_share_ = -1;
   std::string last_stage_;
-  std::deque<std::pair<Clock::time_point, uint64_t>> window_;  ///< (time, cells done) over the last minute
+  Rate stage_rate_, cell_rate_;
+  bool cells_shown_ = false;
 };
 
 /// "0:07", "1:03", "2:15:40".

@@ -21,6 +21,10 @@ constexpr auto sync_interval = std::chrono::seconds(1);
 constexpr uint64_t sync_bytes = 16u << 20;
 constexpr double prepare_timeout_s = 3600, open_timeout_s = 600;
 
+std::string absolute_directory(const RunPaths& run) {
+  return std::filesystem::absolute(run.directory).string();
+}
+
 }  // namespace
 
 Shepherd::Shepherd(Transport& transport, ShepherdOptions options)
@@ -34,12 +38,12 @@ void Shepherd::handle(const Message& message) {
     ReadyMessage ready;
     ready.workers = options_.workers;
     tell(ready);
-  } else if (std::holds_alternative<PrepareMessage>(message)) {
-    prepare_wanted_ = true;
-    next_task(slots_.at(0));
+  } else if (const auto* part = std::get_if<PrepareMessage>(&message)) {
+    prepare(*part);
   } else if (std::holds_alternative<OpenMessage>(message)) {
-    city_ready_ = true, prepare_wanted_ = false;
-    for (Slot& slot : slots_) next_task(slot);
+    city_ready_ = true;
+    for (uint32_t number = 0; number < slots_.size(); ++number)
+      if (slots_[number].task == Task::waiting) next_task(number);
   } else if (const auto* grant = std::get_if<GrantMessage>(&message)) {
     Slot& slot = slots_.at(grant->slot);
     if (slot.task != Task::idle) return;  // it died meanwhile: the coordinator hears of that
@@ -65,22 +69,38 @@ void Shepherd::spawn(uint32_t number) {
   if (!std::getenv("LP_NUM_THREADS"))
     command.environment.emplace_back("LP_NUM_THREADS", std::to_string(options_.threads_per_worker));
   slot.child = std::make_unique<Child>(command);
-  slot.lease = 0, slot.last_words.clear();
+  slot.lease = 0, slot.last_words.clear(), ++slot.life;
   set(slot, Task::starting);
 }
 
-/// What a child that said hello and has nothing to do should do.
-void Shepherd::next_task(Slot& slot) {
-  if (!slot.child || slot.task != Task::waiting) return;
-  const std::string directory =
-      json{{"directory", std::filesystem::absolute(options_.run.directory).string()}}.dump();
+/// What a child that has nothing to do should do: open the city, or ask for a part of the preparation.
+void Shepherd::next_task(uint32_t number) {
+  Slot& slot = slots_[number];
   if (city_ready_) {
     set(slot, Task::opening);
-    slot.child->send(Verb::open, directory);
-  } else if (prepare_wanted_ && &slot == &slots_[0]) {
-    set(slot, Task::preparing);
-    slot.child->send(Verb::prepare, directory);
+    slot.child->send(Verb::open, json{{"directory", absolute_directory(options_.run)}}.dump());
+    return;
   }
+  set(slot, Task::waiting);
+  WaitingMessage waiting;
+  waiting.slot = number, waiting.life = slot.life;
+  tell(waiting);
+}
+
+void Shepherd::prepare(const PrepareMessage& message) {
+  Slot& slot = slots_.at(message.slot);
+  // The child that waited died meanwhile: its part has been taken back, and may be in other hands.
+  if (slot.task != Task::waiting || slot.life != message.life) return;
+  const auto stage = static_cast<Stage>(message.stage);
+  const bool alone = stage == Stage::import || stage == Stage::finish;
+  slot.stage = message.stage, slot.part = message.part;
+  set(slot, Task::preparing);
+  slot.child->send(Verb::prepare, json{{"directory", absolute_directory(options_.run)},
+                                       {"stage", name_of(stage)},
+                                       {"part", message.part},
+                                       {"after_death", message.after_death != 0},
+                                       {"threads", alone ? options_.cores : options_.threads_per_worker}}
+                                      .dump());
 }
 
 void Shepherd::step(int wait_ms) {
@@ -120,9 +140,10 @@ void Shepherd::on_death(uint32_t number, const std::string& why) {
   const std::string ending = slot.child->reap(!why.empty());
   slot.child.reset();
   if (stop_until_) return;
-  if (slot.task != Task::idle && slot.task != Task::baking) ++slot.deaths_before_open;
+  // What it does to a part or a cell is counted there; a child that cannot begin is its slot's fault.
+  if (slot.task == Task::starting || slot.task == Task::opening) ++slot.deaths_before_open;
   LostMessage lost;
-  lost.lease = slot.lease, lost.slot = number;
+  lost.lease = slot.lease, lost.slot = number, lost.preparing = slot.task == Task::preparing;
   lost.given_up = slot.deaths_before_open >= deaths_allowed_before_open;
   std::string reason = why.empty() ? ending : why;
   // What it said last, in a frame or, like a library that aborts, on its standard error.

@@ -19,7 +19,8 @@ namespace veduta {
 struct ShepherdOptions {
   RunPaths run;
   uint32_t workers = 1;
-  uint32_t threads_per_worker = 1;  ///< of a software renderer
+  uint32_t threads_per_worker = 1;  ///< of a software renderer, and of a part of the preparation
+  uint32_t cores = 1;               ///< for a part that is alone in its stage
   std::string gpu = "auto";
   double cell_timeout_s = 300;  ///< a child silent for longer over one cell is killed
 };
@@ -52,15 +53,19 @@ class Shepherd {
     std::string renderer, last_words;  ///< last_words: of a `failed` frame
     uint64_t lease = 0;
     uint32_t begin = 0, count = 0;  ///< the lease's cells
+    uint32_t stage = 0, part = 0;   ///< what it prepares
+    uint32_t life = 0;              ///< children that were started in this slot
     int deaths_before_open = 0;
     Clock::time_point last_sign;
   };
 
   void spawn(uint32_t number);
   void set(Slot& slot, Task task) { slot.task = task, slot.last_sign = Clock::now(); }
-  void next_task(Slot& slot);
+  void next_task(uint32_t number);
+  void prepare(const PrepareMessage& message);
   void take_output(uint32_t number);
   void on_frame(uint32_t number, const Frame& frame);
+  void on_prepared(uint32_t number, const Frame& frame);
   void on_record(uint32_t number, const Frame& frame);
   void on_failed(Slot& slot, const Frame& frame);
   void on_death(uint32_t number, const std::string& why);
@@ -76,7 +81,7 @@ class Shepherd {
   uint64_t unsynced_bytes_ = 0;
   Clock::time_point last_sync_ = Clock::now();
   std::optional<Clock::time_point> stop_until_;
-  bool prepare_wanted_ = false, city_ready_ = false, left_ = false;
+  bool city_ready_ = false, left_ = false;
 };
 
 }  // namespace veduta

@@ -1,4 +1,5 @@
 // What a worker says, and what its shepherd does about it.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "farm/run_directory.h"
@@ -26,28 +27,9 @@ void Shepherd::on_frame(uint32_t number, const Frame& frame) {
     if (parsed(frame).value("version", 0) != protocol_version)
       throw Error(ExitStatus::input_output,
                   worker_program().string() + ": is of another version than veduta; build both");
-    set(slot, Task::waiting);
-    next_task(slot);
-  } else if (frame.verb == Verb::progress) {
-    const json progress = parsed(frame);
-    StageMessage stage;
-    stage.stage = FixedText<64>(progress.value("stage", ""));
-    stage.done = progress.value("done", uint64_t{0}), stage.total = progress.value("total", uint64_t{0});
-    tell(stage);
+    next_task(number);
   } else if (frame.verb == Verb::prepared) {
-    const json counts = parsed(frame);
-    for (const auto& note : counts.value("notes", json::array())) {
-      NoteMessage message;
-      message.text = FixedText<400>(note.is_string() ? note.get<std::string>() : note.dump());
-      tell(message);
-    }
-    PreparedMessage prepared;
-    prepared.cells = counts.value("cells", uint64_t{0}),
-    prepared.objects = counts.value("objects", uint64_t{0});
-    prepared.triangles = counts.value("triangles", uint64_t{0});
-    set(slot, Task::waiting);
-    prepare_wanted_ = false;
-    tell(prepared);
+    on_prepared(number, frame);
   } else if (frame.verb == Verb::opened) {
     slot.renderer = parsed(frame).value("renderer", "");
     slot.deaths_before_open = 0;
@@ -68,6 +50,35 @@ void Shepherd::on_frame(uint32_t number, const Frame& frame) {
   } else if (frame.verb == Verb::failed) {
     on_failed(slot, frame);
   }
+}
+
+void Shepherd::on_prepared(uint32_t number, const Frame& frame) {
+  Slot& slot = slots_[number];
+  if (slot.task != Task::preparing) return;
+  const json answer = parsed(frame);
+  if (answer.value("stage", "") != name_of(static_cast<Stage>(slot.stage)) ||
+      answer.value("part", uint32_t{0}) != slot.part)
+    throw Error(ExitStatus::defect, "worker stream: an answer for a part that was not asked for");
+  const auto again = answer.value("again", std::vector<uint32_t>());
+  PreparedMessage prepared;
+  if (again.size() > prepared.again.size())
+    throw Error(ExitStatus::defect,
+                "worker stream: a tile with " + std::to_string(again.size()) + " neighbours");
+  prepared.slot = number;
+  prepared.tiles = answer.value("tiles", uint32_t{0}), prepared.blocks = answer.value("blocks", uint32_t{0});
+  prepared.cells = answer.value("cells", uint64_t{0}),
+  prepared.objects = answer.value("objects", uint64_t{0});
+  prepared.triangles = answer.value("triangles", uint64_t{0});
+  prepared.again_count = static_cast<uint32_t>(again.size());
+  std::copy(again.begin(), again.end(), prepared.again.begin());
+  prepared.seconds = answer.value("seconds", 0.0), prepared.peak_mb = answer.value("peak_mb", 0.0);
+  for (const auto& note : answer.value("notes", json::array())) {
+    NoteMessage message;
+    message.text = FixedText<400>(note.is_string() ? note.get<std::string>() : note.dump());
+    tell(message);
+  }
+  tell(prepared);
+  next_task(number);
 }
 
 void Shepherd::on_record(uint32_t number, const Frame& frame) {

@@ -1,6 +1,7 @@
 // Frames between a shepherd and its worker child, over the child's standard input and output.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -9,22 +10,36 @@
 
 namespace veduta {
 
+/// The stages of the preparation, in order (worker/preparation.h): `flood` and `cells` have a part for each
+/// tile, `shrink` one for each block, `import` and `finish` one.
+enum class Stage : uint32_t { import, flood, cells, shrink, finish };
+inline constexpr std::array<const char*, 5> stage_names{"import", "flood", "cells", "shrink", "finish"};
+inline constexpr const char* name_of(Stage stage) {
+  return stage_names[static_cast<size_t>(stage)];
+}
+/// A flood lets more into neighbours only: that many tiles at most are named to be flooded again.
+inline constexpr size_t neighbour_limit = 8;
+
 /// What a frame says. Control payloads are JSON objects with the members listed; cell_baked carries an
 /// encoded CellRecord.
 enum class Verb : uint32_t {
   // shepherd to worker
-  prepare = 1,  ///< {"directory"}: read run.toml there, make prepared/ (atomically), answer `prepared`
-  open = 2,     ///< {"directory"}: load prepared/, make a GL context, answer `opened`
-  bake = 3,     ///< {"cells": [u32...]}: answer one `cell_baked` per cell, in order, then `lease_done`
-  quit = 4,     ///< {}: leave with status 0 (closing standard input means the same)
+  prepare =
+      1,     ///< {"directory", "stage", "part", "threads", "after_death"}: do a part of the preparation with
+             ///< so many threads, answer `prepared`. What passes between parts lies in prepared.tmp/. A tile
+             ///< that is flooded after the death of a worker that flooded it names all its neighbours
+  open = 2,  ///< {"directory"}: load prepared/, make a GL context, answer `opened`
+  bake = 3,  ///< {"cells": [u32...]}: answer one `cell_baked` per cell, in order, then `lease_done`
+  quit = 4,  ///< {}: leave with status 0 (closing standard input means the same)
   // worker to shepherd
   hello = 16,       ///< {"pid", "version"}: sent first
-  progress = 17,    ///< {"stage", "done", "total"}: during `prepare`; also a sign of life
-  prepared = 18,    ///< {"cells", "objects", "triangles", "notes": [text...]}
-  opened = 19,      ///< {"renderer", "cells"}
-  cell_baked = 20,  ///< encode(CellRecord)
-  lease_done = 21,  ///< {}
-  failed = 22,      ///< {"status", "message"}: an Error; the worker then leaves with that status
+  prepared = 17,    ///< {"stage", "part", "seconds", "peak_mb", "notes": [text...]}; besides `import`:
+                    ///< {"tiles", "blocks"}, `flood`: {"again": [tiles...]}, `finish`: {"cells", "objects",
+                    ///< "triangles"}
+  opened = 18,      ///< {"renderer", "cells"}
+  cell_baked = 19,  ///< encode(CellRecord)
+  lease_done = 20,  ///< {}
+  failed = 21,      ///< {"status", "message"}: an Error; the worker then leaves with that status
 };
 
 /// On the wire: u32 magic, u32 verb, u64 payload length, payload; little-endian.
@@ -36,7 +51,7 @@ struct Frame {
 
 inline constexpr uint32_t frame_magic = 0x31544456;        // "VDT1"
 inline constexpr uint64_t frame_payload_limit = 1u << 28;  // 256 MiB: more is a damaged stream
-inline constexpr int protocol_version = 1;
+inline constexpr int protocol_version = 2;
 
 std::vector<std::byte> encode_frame(Verb verb, const std::byte* payload, size_t size);
 std::vector<std::byte> encode_frame(Verb verb, const std::string& json);

@@ -1,7 +1,10 @@
 #include "worker/worker_loop.h"
 
+#include <tbb/global_control.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -9,6 +12,7 @@
 #include "pvs/run_paths.h"
 #include "pvs/shard.h"
 #include "scene/error.h"
+#include "scene/peak_memory.h"
 #include "worker/baker.h"
 #include "worker/prepare.h"
 #include "worker/protocol.h"
@@ -31,7 +35,7 @@ class Worker {
     if (request.is_discarded()) throw Error(ExitStatus::defect, "worker: a request is not JSON");
     switch (frame.verb) {
       case Verb::prepare:
-        prepare_city(request.at("directory").get<std::string>());
+        prepare_part(request);
         break;
       case Verb::open:
         open_city(request.at("directory").get<std::string>());
@@ -53,17 +57,29 @@ class Worker {
  private:
   void say(Verb verb, const json& payload) { write_frame(output_, encode_frame(verb, payload.dump())); }
 
-  void prepare_city(const std::string& directory) {
-    const Prepared prepared = prepare(
-        load_settings(RunPaths{directory}.settings()), [&](const std::string& stage, int done, int total) {
-          say(Verb::progress, {{"stage", stage}, {"done", done}, {"total", total}});
-        });
-    write_prepared(directory, prepared);
+  void prepare_part(const json& request) {
+    const RunPaths run{request.at("directory").get<std::string>()};
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                      std::max(size_t{1}, request.at("threads").get<size_t>()));
+    const auto began = std::chrono::steady_clock::now();
+    reset_peak_memory();
+    json answer = done_part(run, request.at("stage").get<std::string>());
+    answer["stage"] = request.at("stage"), answer["part"] = request.at("part");
+    answer["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    answer["peak_mb"] = peak_memory_mb();
+    say(Verb::prepared, answer);
+  }
+
+  /// The steps are not apart yet: all is done in the last one.
+  static json done_part(const RunPaths& run, const std::string& stage) {
+    if (stage == name_of(Stage::import)) return {{"tiles", 0}, {"blocks", 0}};
+    const Prepared prepared = prepare(load_settings(run.settings()));
+    write_prepared(run.directory, prepared);
     const City& city = prepared.city;
-    say(Verb::prepared, {{"cells", city.cells.size()},
-                         {"objects", city.scene.objects.size()},
-                         {"triangles", city.scene.triangle_count()},
-                         {"notes", prepared.notes}});
+    return {{"cells", city.cells.size()},
+            {"objects", city.scene.objects.size()},
+            {"triangles", city.scene.triangle_count()},
+            {"notes", prepared.notes}};
   }
 
   void open_city(const std::string& directory) {

@@ -1,6 +1,6 @@
 // A worker without GL for the tests of the farm: it speaks the protocol, and fails in the ways that its
 // environment names.
-//   FAKE_CELLS       number of view-cells that `prepare` makes [200]
+//   FAKE_CELLS       number of view-cells that the preparation makes [200]
 //   FAKE_CELL_MS     time that a cell takes [1]
 //   FAKE_CRASH_CELLS cells ("17,40") whose bake ends in SIGKILL, each time
 //   FAKE_CRASH_RATE  probability (0..1) that a cell ends in SIGSEGV
@@ -8,7 +8,10 @@
 //   FAKE_LEAVE_ONCE  a file: the worker that can create it leaves after its lease
 //   FAKE_STRAY_ONCE  a file: the worker that can create it answers for a cell that there is not
 //   FAKE_FAIL        a status: `prepare` answers `failed` with it
-//   FAKE_PREPARE_DIES  set: `prepare` ends in SIGKILL
+//   FAKE_PREPARE_MS  time that a part of the preparation takes [0]
+//   FAKE_PREPARE_DIES  a part ("flood-3") that ends in SIGKILL, each time
+//   FAKE_PREPARE_DIES_ONCE  a directory: each part, done for the first time, ends in SIGKILL before the
+//   answer
 #include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>
@@ -27,6 +30,7 @@
 #include "pvs/pvs_file.h"
 #include "pvs/shard.h"
 #include "scene/error.h"
+#include "tests/farm/fake_preparation.h"
 #include "worker/protocol.h"
 
 namespace veduta {
@@ -98,8 +102,7 @@ class FakeWorker {
       if (frame->verb == Verb::quit) return 0;
       const json value = json::parse(frame->text());
       if (frame->verb == Verb::prepare) {
-        if (const int status = prepare({value.at("directory").get<std::string>()}); status != 0)
-          return status;
+        if (const int status = prepare(value); status != 0) return status;
       } else if (frame->verb == Verb::open) {
         const City city = read_city(RunPaths{value.at("directory").get<std::string>()}.city());
         answer(Verb::opened, {{"renderer", "fake"}, {"cells", city.cells.size()}});
@@ -113,22 +116,36 @@ class FakeWorker {
   }
 
  private:
-  int prepare(const RunPaths& run) {
-    if (std::getenv("FAKE_PREPARE_DIES")) raise(SIGKILL);
+  int prepare(const json& request) {
+    const auto stage = request.at("stage").get<std::string>();
+    const auto part = request.at("part").get<uint32_t>();
+    const std::string name = stage + "-" + std::to_string(part);
+    if (environment("FAKE_PREPARE_DIES", "") == name) raise(SIGKILL);
     if (const int status = std::atoi(environment("FAKE_FAIL", "0").c_str()); status != 0) {
       answer(Verb::failed, {{"status", status}, {"message", "model.json: broken on purpose; mend it"}});
       return status;
     }
-    answer(Verb::progress, {{"stage", "seeds"}, {"done", 1}, {"total", 2}});
-    const auto unfinished = run.directory / "prepared.tmp";
-    std::filesystem::remove_all(unfinished);
-    std::filesystem::create_directories(unfinished);
-    const auto cells = static_cast<uint32_t>(std::stoul(environment("FAKE_CELLS", "200")));
-    write_city(unfinished / "city.h5", tiny_city(cells));
-    std::filesystem::rename(unfinished, run.prepared());
-    answer(Verb::prepared, {{"cells", cells},
+    const RunPaths run{request.at("directory").get<std::string>()};
+    FakePreparation preparation(run.directory / "prepared.tmp");
+    preparation.do_part(stage, part, request.at("after_death").get<bool>());
+    if (stage == "finish") {
+      write_city(preparation.directory() / "city.h5", tiny_city(cells_));
+      std::filesystem::rename(preparation.directory(), run.prepared());
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(prepare_ms_));
+    const std::string deaths = environment("FAKE_PREPARE_DIES_ONCE", "");
+    if (stage != "finish" && !deaths.empty() && first_to_create(deaths + "/" + name)) raise(SIGKILL);
+    preparation.let_go(stage, part);
+    answer(Verb::prepared, {{"stage", stage},
+                            {"part", part},
+                            {"tiles", FakePreparation::tiles},
+                            {"blocks", FakePreparation::blocks},
+                            {"again", preparation.again()},
+                            {"cells", cells_},
                             {"objects", object_count},
                             {"triangles", 4 * object_count},
+                            {"seconds", 0.001 * prepare_ms_},
+                            {"peak_mb", 7.0},
                             {"notes", {"a note"}}});
     return 0;
   }
@@ -147,6 +164,8 @@ class FakeWorker {
 
   std::set<uint32_t> crash_cells_;
   double crash_rate_ = std::stod(environment("FAKE_CRASH_RATE", "0"));
+  uint32_t cells_ = static_cast<uint32_t>(std::stoul(environment("FAKE_CELLS", "200")));
+  int prepare_ms_ = std::stoi(environment("FAKE_PREPARE_MS", "0"));
   int cell_ms_ = std::stoi(environment("FAKE_CELL_MS", "1"));
   int baked_ = 0;
   std::mt19937 random_{static_cast<uint32_t>(getpid())};

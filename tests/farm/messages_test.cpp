@@ -17,6 +17,21 @@ TEST(Messages, ComeBackAsTheyWere) {
   EXPECT_EQ(std::get<GrantMessage>(back).count, 64u);
 }
 
+TEST(Messages, PartsAndTheirAnswersComeBackAsTheyWere) {
+  PrepareMessage part;
+  part.slot = 1, part.life = 3, part.stage = 4, part.part = 70'000;
+  auto bytes = encode(Message{part});
+  const auto asked = std::get<PrepareMessage>(decode_message(bytes.data(), bytes.size()));
+  EXPECT_EQ(asked.life, 3u);
+  EXPECT_EQ(asked.part, 70'000u);
+  PreparedMessage prepared;
+  prepared.again_count = 2, prepared.again[1] = 9, prepared.peak_mb = 0.5;
+  bytes = encode(Message{prepared});
+  const auto answer = std::get<PreparedMessage>(decode_message(bytes.data(), bytes.size()));
+  EXPECT_EQ(answer.again[1], 9u);
+  EXPECT_EQ(answer.peak_mb, 0.5);
+}
+
 TEST(Messages, LongTextIsCut) {
   FailedMessage failed;
   failed.message = FixedText<1600>(std::string(5000, 'x'));

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <deque>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "pvs/shard.h"
@@ -16,6 +18,7 @@ namespace veduta {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
 
 /// A run directory with a configuration, and a worker on a thread at the other end of two pipes.
 class WorkerLoop : public testing::Test {
@@ -51,15 +54,42 @@ class WorkerLoop : public testing::Test {
     if (to_worker_[1] >= 0) close(to_worker_[1]);
     to_worker_[1] = -1;
   }
-  void say(Verb verb, const std::string& json) { write_frame(to_worker_[1], encode_frame(verb, json)); }
+  void say(Verb verb, const std::string& payload) { write_frame(to_worker_[1], encode_frame(verb, payload)); }
   std::string in_directory() const { return "{\"directory\": \"" + directory_.string() + "\"}"; }
 
-  /// The next frame that is no progress report.
   Frame hear() {
-    for (;;) {
-      std::optional<Frame> frame = read_frame(from_worker_[0]);
-      if (!frame) throw std::runtime_error("the worker left");
-      if (frame->verb != Verb::progress) return *frame;
+    std::optional<Frame> frame = read_frame(from_worker_[0]);
+    if (!frame) throw std::runtime_error("the worker left");
+    return *frame;
+  }
+  /// The answer to a part of the preparation.
+  Frame prepare(Stage stage, uint32_t part) {
+    say(Verb::prepare, json{{"directory", directory_.string()},
+                            {"stage", name_of(stage)},
+                            {"part", part},
+                            {"threads", 2},
+                            {"after_death", false}}
+                           .dump());
+    return hear();
+  }
+  /// The whole preparation, as a coordinator with one worker has it done. \return the first answer that is
+  /// not `prepared`, or the last answer.
+  Frame prepare_all() {
+    uint32_t tiles = 0, blocks = 0;
+    for (std::deque<std::pair<Stage, uint32_t>> parts{{Stage::import, 0}};;) {
+      const auto [stage, part] = parts.front();
+      parts.pop_front();
+      Frame frame = prepare(stage, part);
+      if (frame.verb != Verb::prepared || stage == Stage::finish) return frame;
+      const json answer = json::parse(frame.text());
+      if (stage == Stage::import) tiles = answer.at("tiles"), blocks = answer.at("blocks");
+      for (const uint32_t tile : answer.value("again", std::vector<uint32_t>()))
+        parts.emplace_back(Stage::flood, tile);
+      for (Stage next = stage; parts.empty();) {
+        next = static_cast<Stage>(static_cast<uint32_t>(next) + 1);
+        const uint32_t count = next == Stage::finish ? 1 : next == Stage::shrink ? blocks : tiles;
+        for (uint32_t each = 0; each < count; ++each) parts.emplace_back(next, each);
+      }
     }
   }
   int leave() {
@@ -75,8 +105,7 @@ class WorkerLoop : public testing::Test {
 };
 
 TEST_F(WorkerLoop, PreparesOpensAndBakes) {
-  say(Verb::prepare, in_directory());
-  const Frame prepared = hear();
+  const Frame prepared = prepare_all();
   ASSERT_EQ(prepared.verb, Verb::prepared) << prepared.text();
   say(Verb::open, in_directory());
   const Frame opened = hear();
@@ -96,8 +125,7 @@ TEST_F(WorkerLoop, PreparesOpensAndBakes) {
 
 TEST_F(WorkerLoop, SaysWhatIsWrongWithAModel) {
   fs::remove(directory_ / "city.obj");
-  say(Verb::prepare, in_directory());
-  const Frame failed = hear();
+  const Frame failed = prepare_all();
   ASSERT_EQ(failed.verb, Verb::failed);
   EXPECT_NE(failed.text().find("city.obj"), std::string::npos) << failed.text();
   EXPECT_EQ(leave(), static_cast<int>(ExitStatus::bad_input));
@@ -105,8 +133,7 @@ TEST_F(WorkerLoop, SaysWhatIsWrongWithAModel) {
 }
 
 TEST_F(WorkerLoop, RefusesDamagedOccluders) {
-  say(Verb::prepare, in_directory());
-  ASSERT_EQ(hear().verb, Verb::prepared);
+  ASSERT_EQ(prepare_all().verb, Verb::prepared);
   fs::resize_file(directory_ / "prepared" / "occluders.bin", 20);
   say(Verb::open, in_directory());
   const Frame failed = hear();

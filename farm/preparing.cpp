@@ -1,0 +1,70 @@
+#include "farm/preparing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace veduta {
+
+using nlohmann::json;
+
+void Preparing::on_prepared(WorkerId worker, const PreparedMessage& message, double now_s) {
+  const Stage stage = book_.stage();
+  const uint32_t parts = book_.parts();
+  if (stage == Stage::import) book_.set_size(message.tiles, message.blocks);
+  if (stage == Stage::finish) city_ = {message.cells, message.objects, message.triangles};
+  ++tally_.runs;
+  tally_.worker_s += message.seconds;
+  tally_.peak_mb = std::max(tally_.peak_mb, message.peak_mb);
+  book_.done(worker, {message.again.begin(), message.again.begin() + message.again_count});
+  if (book_.complete() || book_.stage() != stage) close_stage(stage, parts, now_s);
+}
+
+void Preparing::close_stage(Stage stage, uint32_t parts, double now_s) {
+  if (parts > 1) progress_.stage(name_of(stage), tally_.runs, tally_.runs);
+  tally_.stage = stage, tally_.parts = parts, tally_.seconds = now_s - stage_began_s_;
+  log_.info("stage",
+            json{{"stage", name_of(stage)},
+                 {"parts", tally_.parts},
+                 {"runs", tally_.runs},
+                 {"elapsed_s", tally_.seconds},
+                 {"worker_s", tally_.worker_s},
+                 {"peak_mb", tally_.peak_mb}},
+            fmt::format("{}: {} part{} in {:.1f} s, at most {:.0f} MB in a worker", name_of(stage),
+                        tally_.runs, tally_.runs == 1 ? "" : "s", tally_.seconds, tally_.peak_mb));
+  stages_.push_back(tally_);
+  tally_ = {};
+  stage_began_s_ = now_s;
+}
+
+std::optional<std::string> Preparing::on_lost(WorkerId worker, const LostMessage& message) {
+  waiting_.erase(worker);
+  const auto condemned = book_.lost(worker, message.preparing != 0);
+  if (!condemned) return std::nullopt;
+  return fmt::format("{}, part {} of {}", name_of(condemned->stage), condemned->part + 1, book_.parts());
+}
+
+void Preparing::tick() {
+  if (book_.complete()) return;
+  for (auto worker = waiting_.begin(); worker != waiting_.end();) {
+    const auto part = book_.grant(worker->first);
+    if (!part) break;
+    PrepareMessage message;
+    message.slot = static_cast<uint32_t>(worker->first.slot), message.life = worker->second;
+    message.stage = static_cast<uint32_t>(part->stage), message.part = part->part;
+    message.after_death = part->after_death;
+    transport_.send(worker->first.rank, message);
+    worker = waiting_.erase(worker);
+  }
+  progress_.stage(name_of(book_.stage()), book_.finished(), book_.finished() + book_.outstanding());
+}
+
+std::string stages_text(const std::vector<StageTally>& stages) {
+  std::string text;
+  for (const StageTally& stage : stages)
+    text += fmt::format("{}{} {:.1f} s", text.empty() ? "" : ", ", name_of(stage.stage), stage.seconds);
+  return text;
+}
+
+}  // namespace veduta

@@ -1,0 +1,62 @@
+// The coordinator's side of the preparation: parts to the workers that wait, what the stages took.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "farm/log.h"
+#include "farm/preparation_book.h"
+#include "farm/progress.h"
+#include "farm/run_directory.h"
+#include "farm/transport.h"
+
+namespace veduta {
+
+/// What a stage took.
+struct StageTally {
+  Stage stage = Stage::import;
+  uint32_t parts = 0;
+  uint64_t runs = 0;    ///< parts done, counting a tile each time that it was flooded
+  double seconds = 0;   ///< from its first part given out to its last one done
+  double worker_s = 0;  ///< summed over runs
+  double peak_mb = 0;   ///< the most memory that a worker had during a part
+};
+
+/// Times are those of any steadily growing clock, s.
+class Preparing {
+ public:
+  Preparing(Transport& transport, RunLog& log, Progress& progress, double now_s)
+      : transport_(transport), log_(log), progress_(progress), stage_began_s_(now_s) {}
+
+  void on_waiting(WorkerId worker, const WaitingMessage& message) { waiting_[worker] = message.life; }
+  /// \throw Error(defect) for an answer that makes no sense.
+  void on_prepared(WorkerId worker, const PreparedMessage& message, double now_s);
+  /// \return what the preparation cannot get over: "flood, part 3 of 20", after three deaths over one part.
+  std::optional<std::string> on_lost(WorkerId worker, const LostMessage& message);
+  /// Hands parts out and shows progress.
+  void tick();
+
+  bool complete() const { return book_.complete(); }
+  const CityCounts& city() const { return city_; }
+  const std::vector<StageTally>& stages() const { return stages_; }
+
+ private:
+  void close_stage(Stage stage, uint32_t parts, double now_s);
+
+  Transport& transport_;
+  RunLog& log_;
+  Progress& progress_;
+  PreparationBook book_;
+  std::map<WorkerId, uint32_t> waiting_;  ///< and the child's life, for its PrepareMessage
+  CityCounts city_;
+  StageTally tally_;  ///< of the stage now
+  std::vector<StageTally> stages_;
+  double stage_began_s_ = 0;
+};
+
+/// "import 2.1 s, flood 0.8 s, ...".
+std::string stages_text(const std::vector<StageTally>& stages);
+
+}  // namespace veduta
