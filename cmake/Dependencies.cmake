@@ -11,6 +11,7 @@ find_package(GDAL CONFIG REQUIRED)                           # [libgdal-dev] DXF
 find_package(pugixml REQUIRED)                               # [libpugixml-dev] CityGML, city rules
 find_package(TinyGLTF REQUIRED)                              # [libtinygltf-dev]
 find_package(LibArchive REQUIRED)                            # [libarchive-dev]
+find_package(ZLIB REQUIRED)                                  # [zlib1g-dev]
 find_package(TBB REQUIRED)                                   # [libtbb-dev]
 find_package(embree 3 REQUIRED)                              # [libembree-dev]
 find_package(PNG REQUIRED)                                   # [libpng-dev]

@@ -16,60 +16,72 @@ namespace {
 /// in the plane between two voxels is in both: a gap of two seeds between two such walls would be closed.
 constexpr double aside_of_multiples = 1e-3;
 
-int clamped_index(double value, double lower, double size, int count) {
-  return static_cast<int>(std::clamp(std::floor((value - lower) / size), 0.0, count - 1.0));
+/// From the number in the lattice, so that frames of one city never differ in what they find.
+int clamped_index(double value_m, const GridFrame& frame, int first, int count) {
+  const double number = std::floor((value_m + frame.aside_m) / frame.size_m);
+  return static_cast<int>(std::clamp(number - first, 0.0, count - 1.0));
 }
 
 }  // namespace
 
 int GridFrame::column_x(double x_m) const {
-  return clamped_index(x_m, x(0), size_m, nx);
+  return clamped_index(x_m, *this, i0, nx);
 }
 int GridFrame::column_y(double y_m) const {
-  return clamped_index(y_m, y(0), size_m, ny);
+  return clamped_index(y_m, *this, j0, ny);
 }
 int GridFrame::layer(double z_m) const {
-  return clamped_index(z_m, z(0), size_m, nz);
+  return clamped_index(z_m, *this, k0, nz);
 }
 
-Box GridFrame::box(int i0, int i1, int j0, int j1, int k0, int k1) const {
-  return {{static_cast<float>(x(i0)), static_cast<float>(y(j0)), static_cast<float>(z(k0))},
-          {static_cast<float>(x(i1 + 1)), static_cast<float>(y(j1 + 1)), static_cast<float>(z(k1 + 1))}};
+Box GridFrame::box(int first_i, int last_i, int first_j, int last_j, int first_k, int last_k) const {
+  return {{static_cast<float>(x(first_i)), static_cast<float>(y(first_j)), static_cast<float>(z(first_k))},
+          {static_cast<float>(x(last_i + 1)), static_cast<float>(y(last_j + 1)),
+           static_cast<float>(z(last_k + 1))}};
 }
 
-GridFrame make_frame(const Box& bounds, double size_m, uint64_t limit_bytes) {
+double plane_bytes(double nx, double ny, double nz) {
+  return nx * ny * std::ceil(nz / 64) * 8;
+}
+
+GridFrame make_frame(const Box& bounds, double size_m, const FrameFits& fits) {
   constexpr double pad = 2;
-  const auto first = [](float lower, double size) { return std::floor(lower / size + aside_of_multiples); };
-  const auto last = [](float upper, double size) {
-    return std::floor(upper / size + aside_of_multiples) + 1;
+  constexpr double largest_number = 1 << 28;  // seeds, four a voxel, have 32-bit numbers too
+  const auto first = [&](int axis, double size) {
+    return std::floor(bounds.lower[axis] / size + aside_of_multiples) - (axis < 2 ? pad : 0);
   };
-  const auto extent = [&](int axis, double size) {
-    return last(bounds.upper[axis], size) - first(bounds.lower[axis], size);
+  const auto end = [&](int axis, double size) {
+    return std::floor(bounds.upper[axis] / size + aside_of_multiples) + 1 + pad;
   };
-  const auto bytes_of = [&](double size) {
-    return (extent(0, size) + 2 * pad) * (extent(1, size) + 2 * pad) *
-           std::ceil((extent(2, size) + pad) / 64) * 8;
+  const auto extent = [&](int axis, double size) { return end(axis, size) - first(axis, size); };
+  const auto fits_with = [&](double size) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(first(axis, size) > -largest_number && end(axis, size) < largest_number)) return false;
+    }
+    return fits(extent(0, size), extent(1, size), extent(2, size));
   };
-  const double nx = extent(0, size_m) + 2 * pad, ny = extent(1, size_m) + 2 * pad,
-               nz = extent(2, size_m) + pad;
-  const double bytes = bytes_of(size_m), limit = static_cast<double>(limit_bytes);
-  if (!(bytes <= limit)) {
-    double fits = size_m;  // by trying: how bytes fall with the seed depends on the scene's proportions
-    while (std::isfinite(fits) && bytes_of(fits) > limit) fits *= 1.1;
+  if (!fits_with(size_m)) {
+    double larger = size_m;  // by trying: how memory falls with the seed depends on the scene's proportions
+    while (std::isfinite(larger) && !fits_with(larger)) larger *= 1.1;
     throw Error(ExitStatus::usage,
-                fmt::format("navigation.seed_size: a grid of {:.0f} x {:.0f} x {:.0f} voxels of {} m needs "
-                            "{:.1f} GB a bit plane "
-                            "(limit {:.1f} GB); use a seed of about {:.3g} m or a smaller scene",
-                            nx, ny, nz, size_m, bytes * 1e-9, limit * 1e-9, 1.02 * fits / seeds_per_voxel));
+                fmt::format("navigation.seed_size: a grid of {:.0f} x {:.0f} x {:.0f} voxels of {} m is too "
+                            "large; use a seed of about {:.3g} m or a smaller scene",
+                            extent(0, size_m), extent(1, size_m), extent(2, size_m), size_m,
+                            1.02 * larger / seeds_per_voxel));
   }
   GridFrame frame;
   frame.size_m = size_m;
   frame.aside_m = aside_of_multiples * size_m;
-  frame.i0 = static_cast<int>(first(bounds.lower.x, size_m) - pad);
-  frame.j0 = static_cast<int>(first(bounds.lower.y, size_m) - pad);
-  frame.k0 = static_cast<int>(first(bounds.lower.z, size_m));
-  frame.nx = static_cast<int>(nx), frame.ny = static_cast<int>(ny), frame.nz = static_cast<int>(nz);
+  frame.i0 = static_cast<int>(first(0, size_m)), frame.nx = static_cast<int>(extent(0, size_m));
+  frame.j0 = static_cast<int>(first(1, size_m)), frame.ny = static_cast<int>(extent(1, size_m));
+  frame.k0 = static_cast<int>(first(2, size_m)), frame.nz = static_cast<int>(extent(2, size_m));
   return frame;
+}
+
+GridFrame make_frame(const Box& bounds, double size_m, uint64_t limit_bytes) {
+  return make_frame(bounds, size_m, [&](double nx, double ny, double nz) {
+    return plane_bytes(nx, ny, nz) <= static_cast<double>(limit_bytes);
+  });
 }
 
 BitGrid::BitGrid(const GridFrame& frame)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "scene/box.h"
@@ -25,14 +26,24 @@ struct GridFrame {
   int column_x(double x_m) const;
   int column_y(double y_m) const;
   int layer(double z_m) const;
-  /// The closed box of voxels [i0, i1] x [j0, j1] x [k0, k1].
-  Box box(int i0, int i1, int j0, int j1, int k0, int k1) const;
+  /// The closed box of voxels [first_i, last_i] x [first_j, last_j] x [first_k, last_k].
+  Box box(int first_i, int last_i, int first_j, int last_j, int first_k, int last_k) const;
 };
+
+/// Whether a grid of nx x ny columns, nz high, can be worked on; counts of any size.
+using FrameFits = std::function<bool(double nx, double ny, double nz)>;
 
 /// The frame for a scene: a lattice a thousandth of a voxel beside the whole multiples of its size, with two
 /// free voxels around and above and none below (what is below the scene is sealed, thesis fig. 4.16). \throw
-/// Error(usage) when the grid would need more than `limit_bytes` per bit plane, naming a seed size that fits.
+/// Error(usage) when it does not fit or its numbers would not, naming a seed size that does.
+GridFrame make_frame(const Box& bounds, double size_m, const FrameFits& fits);
+
+/// One that fits into memory as a whole. \throw Error(usage) when it would need more than `limit_bytes` per
+/// bit plane.
 GridFrame make_frame(const Box& bounds, double size_m, uint64_t limit_bytes = 2'000'000'000);
+
+/// Bytes of a bit plane of so many columns.
+double plane_bytes(double nx, double ny, double nz);
 
 class BitGrid {
  public:

@@ -22,7 +22,7 @@ Brick brick_run(int x, int y, int k0, int k1) {
 BrickGrid::BrickGrid(const BitGrid& occupied, Brick fill) : occupied_(&occupied) {
   const GridFrame& frame = occupied.frame();
   size_t total = 0;
-  begin_.reserve(static_cast<size_t>(frame.nx) * frame.ny);
+  begin_.reserve(static_cast<size_t>(frame.nx) * frame.ny + 1);
   for (int j = 0; j < frame.ny; ++j) {
     for (int i = 0; i < frame.nx; ++i) {
       begin_.push_back(total);
@@ -30,7 +30,18 @@ BrickGrid::BrickGrid(const BitGrid& occupied, Brick fill) : occupied_(&occupied)
         total += static_cast<size_t>(std::popcount(occupied.column(i, j)[w]));
     }
   }
+  begin_.push_back(total);
   bricks_.assign(total, fill);
+}
+
+std::span<Brick> BrickGrid::column(int i, int j) {
+  const size_t* begin = &begin_[static_cast<size_t>(j) * occupied_->frame().nx + i];
+  return {bricks_.data() + begin[0], begin[1] - begin[0]};
+}
+
+std::span<const Brick> BrickGrid::column(int i, int j) const {
+  const size_t* begin = &begin_[static_cast<size_t>(j) * occupied_->frame().nx + i];
+  return {bricks_.data() + begin[0], begin[1] - begin[0]};
 }
 
 size_t BrickGrid::index(int i, int j, int k) const {
@@ -40,10 +51,10 @@ size_t BrickGrid::index(int i, int j, int k) const {
   return rank + static_cast<size_t>(std::popcount(bits[k >> 6] & ((uint64_t{1} << (k & 63)) - 1)));
 }
 
-BrickGrid seed_bricks(const Scene& scene, const BitGrid& occupied) {
+BrickGrid seed_bricks(const std::vector<PlacedTriangle>& triangles, const BitGrid& occupied) {
   const GridFrame fine = fine_frame(occupied.frame());
   BrickGrid bricks(occupied, 0);
-  visit_touched_columns(scene, fine, [&](int i, int j, int k0, int k1, const TouchedColumn& touched) {
+  visit_touched_columns(triangles, fine, [&](int i, int j, int k0, int k1, const TouchedColumn&) {
     const int ci = i / 4, cj = j / 4;
     for (int ck = k0 / 4; ck <= k1 / 4; ++ck) {
       if (!occupied.get(ci, cj, ck)) continue;  // only touched by the margin of the fine test

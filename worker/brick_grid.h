@@ -4,10 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "scene/scene.h"
 #include "worker/bit_grid.h"
+#include "worker/placed_triangles.h"
 
 namespace veduta {
 
@@ -32,16 +33,19 @@ class BrickGrid {
   Brick& at(int i, int j, int k) { return bricks_[index(i, j, k)]; }
   Brick at(int i, int j, int k) const { return bricks_[index(i, j, k)]; }
   size_t size() const { return bricks_.size(); }
+  /// The bricks of a column, from its lowest occupied voxel up.
+  std::span<Brick> column(int i, int j);
+  std::span<const Brick> column(int i, int j) const;
 
  private:
   size_t index(int i, int j, int k) const;
 
   const BitGrid* occupied_;
-  std::vector<size_t> begin_;  // [ny * nx] first brick of a column
+  std::vector<size_t> begin_;  // [ny * nx + 1] first brick of a column
   std::vector<Brick> bricks_;
 };
 
-/// The seeds that a closed triangle touches, in the occupied voxels of the scene.
-BrickGrid seed_bricks(const Scene& scene, const BitGrid& occupied);
+/// The seeds that a closed triangle touches, in the occupied voxels.
+BrickGrid seed_bricks(const std::vector<PlacedTriangle>& triangles, const BitGrid& occupied);
 
 }  // namespace veduta

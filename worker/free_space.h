@@ -17,6 +17,16 @@ BitGrid flood_fill(const BitGrid& occupied);
 /// voxels that it reached.
 BrickGrid flood_seeds(const BitGrid& occupied, const BrickGrid& touched, BitGrid& free);
 
+/// Seeds of a voxel that something outside of the grid lets the fill into.
+struct Inflow {
+  int i = 0, j = 0, k = 0;
+  Brick seeds = 0;
+};
+
+/// Goes on with a fill that flood_fill and flood_seeds made: `free` and `reached` are updated.
+void flood_more(const BitGrid& occupied, const BrickGrid& touched, const std::vector<Inflow>& inflow,
+                BitGrid& free, BrickGrid& reached);
+
 /// The voxels all of whose neighbours within (rx, ry, rz) voxels are set (erosion by a box). Voxels beside
 /// and above the grid count as not set, those below it as set. Linear in the grid's words.
 void erode(BitGrid& grid, int rx, int ry, int rz);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,15 +20,22 @@ struct PreparationSize {
   std::vector<std::string> notes;  ///< what people want to know, a line each
 };
 
+/// How the lattice is shared out. Occluders depend on the size of blocks; nothing depends on that of tiles.
+struct PartSizes {
+  int block_voxels = 512;                  ///< along an edge
+  int tile_blocks = 0;                     ///< along an edge; 0: as many as tile_plane_bytes allow
+  uint64_t tile_plane_bytes = 16'000'000;  ///< of a bit plane of a tile
+};
+
 /// Stage 1, one part: reads the model, cuts it into slices, writes it once as part of city.h5 and once as
 /// triangles by tile. Starts over: what was in prepared.tmp/ is removed. \throw Error as import_scene;
 /// Error(usage) for a seed with which one tile would need too much memory, naming one that fits.
-PreparationSize import_city(const RunPaths& run, const Settings& settings);
+PreparationSize import_city(const RunPaths& run, const Settings& settings, const PartSizes& sizes = {});
 
 /// Stage 2: seed test and flood fill of a tile, from above and from what its neighbours' fills (as far as
 /// they have come) let in. \return the tiles into which more flows now: they must be flooded (again). Tiles
-/// may be flooded in any order and at the same time; when none is left to flood, the free space is that of
-/// one fill of the whole city.
+/// may be flooded in any order and at the same time, one that is named while it is being flooded once more
+/// after that; when none is left to flood, the free space is that of one fill of the whole city.
 std::vector<uint32_t> flood_tile(const RunPaths& run, uint32_t tile);
 
 /// Stage 3: view-cells, navigable octrees, object octrees and ground of a tile. \return how many cells.
@@ -44,5 +51,12 @@ struct PreparedSize {
   std::vector<std::string> notes;
 };
 PreparedSize finish_preparation(const RunPaths& run, const Settings& settings);
+
+/// Told before each part of a stage and at the end of it: name, how many parts are done, of how many known.
+using PreparationProgress = std::function<void(const std::string& stage, uint32_t done, uint32_t total)>;
+
+/// All stages in this process, parts side by side on its threads.
+PreparedSize prepare_all(const RunPaths& run, const Settings& settings,
+                         const PreparationProgress& progress = {}, const PartSizes& sizes = {});
 
 }  // namespace veduta

@@ -64,23 +64,35 @@ Brick fill(Brick reached, Brick pass) {
 
 class SeedFlood {
  public:
-  SeedFlood(const BitGrid& occupied, const BrickGrid& seeds, BitGrid& free)
-      : occupied_(occupied), seeds_(seeds), free_(free), frame_(occupied.frame()), reached_(occupied, 0) {}
+  SeedFlood(const BitGrid& occupied, const BrickGrid& seeds, BitGrid& free, BrickGrid& reached)
+      : occupied_(occupied), seeds_(seeds), free_(free), frame_(occupied.frame()), reached_(reached) {}
 
-  void run() {
+  /// From all that is free.
+  void start() {
     for (int j = 0; j < frame_.ny; ++j) {
       for (int i = 0; i < frame_.nx; ++i) {
         for (int w = 0; w < occupied_.words(); ++w) start_word(i, j, w);
       }
     }
+  }
+
+  /// Lets the fill into a voxel at some of its seeds.
+  void let_in(int i, int j, int k, Brick seeds) {
+    if (occupied_.get(i, j, k)) {
+      enter(i, j, k, seeds);
+    } else if (seeds != 0 && !free_.get(i, j, k)) {
+      free_.set(i, j, k);
+      queue_.push_back({i, j, k});
+    }
+  }
+
+  void run() {
     while (!queue_.empty()) {
       const Voxel v = queue_.back();
       queue_.pop_back();
       spread(v);
     }
   }
-
-  BrickGrid take_reached() { return std::move(reached_); }
 
  private:
   struct Voxel {
@@ -122,13 +134,7 @@ class SeedFlood {
     for (const Direction& d : faces_) {
       const int i = v.i + d.dx, j = v.j + d.dy, k = v.k + d.dz;
       const Brick side = reached & d.side;
-      if (side == 0 || !inside(i, j, k)) continue;
-      if (occupied_.get(i, j, k)) {
-        enter(i, j, k, across(side, d));
-      } else if (!free_.get(i, j, k)) {
-        free_.set(i, j, k);
-        queue_.push_back({i, j, k});
-      }
+      if (side != 0 && inside(i, j, k)) let_in(i, j, k, across(side, d));
     }
   }
 
@@ -136,7 +142,7 @@ class SeedFlood {
   const BrickGrid& seeds_;
   BitGrid& free_;
   const GridFrame& frame_;
-  BrickGrid reached_;
+  BrickGrid& reached_;
   const std::vector<Direction> faces_ = directions(true);
   std::vector<Voxel> queue_;
 };
@@ -185,9 +191,18 @@ BitGrid sealed_voxels(const SeedRegion& region) {
 }
 
 BrickGrid flood_seeds(const BitGrid& occupied, const BrickGrid& touched, BitGrid& free) {
-  SeedFlood flood(occupied, touched, free);
+  BrickGrid reached(occupied, 0);
+  SeedFlood flood(occupied, touched, free, reached);
+  flood.start();
   flood.run();
-  return flood.take_reached();
+  return reached;
+}
+
+void flood_more(const BitGrid& occupied, const BrickGrid& touched, const std::vector<Inflow>& inflow,
+                BitGrid& free, BrickGrid& reached) {
+  SeedFlood flood(occupied, touched, free, reached);
+  for (const Inflow& at : inflow) flood.let_in(at.i, at.j, at.k, at.seeds);
+  flood.run();
 }
 
 }  // namespace veduta

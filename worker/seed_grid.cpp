@@ -34,61 +34,49 @@ SeedGrid::SeedGrid(const GridFrame& frame)
     : occupied(frame),
       ground(static_cast<size_t>(frame.nx) * frame.ny, std::numeric_limits<float>::quiet_NaN()) {}
 
-void visit_touched_columns(const Scene& scene, const GridFrame& frame, const ColumnVisitor& visit) {
+void visit_touched_columns(const std::vector<PlacedTriangle>& triangles, const GridFrame& frame,
+                           const ColumnVisitor& visit) {
   const double margin = frame.size_m * 1e-6;  // more than doubles round
   // Triangles by the band of rows that they touch, so that bands run in parallel without sharing a column.
   constexpr int band_rows = 64;
   const int bands = (frame.ny + band_rows - 1) / band_rows;
-  const auto clip_to_band = [&](int b, bool terrain, const std::array<glm::vec3, 3>& corners) {
-    const auto [y0, y1] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
-    const int first = std::max(frame.column_y(y0 - margin), b * band_rows);
-    const int last = std::min(frame.column_y(y1 + margin), (b + 1) * band_rows - 1);
-    for (int j = first; j <= last; ++j) {
-      clip_to_row(uncut(corners), frame, j, margin, [&](int i, double z0, double z1) {
-        visit(i, j, frame.layer(z0 - margin), frame.layer(z1 + margin), {terrain, static_cast<float>(z1)});
-      });
-    }
+  const auto rows = [&](const PlacedTriangle& triangle) {
+    const auto& c = triangle.corner;
+    const auto [y0, y1] = std::minmax({c[0].y, c[1].y, c[2].y});
+    return std::pair(frame.column_y(y0 - margin), frame.column_y(y1 + margin));
   };
-  std::vector<std::vector<uint32_t>> own(bands), instances(bands);  // triangles; objects
-  for (uint32_t o = 0; o < scene.objects.size(); ++o) {
-    const bool placed = scene.instance_of(o) != nullptr;
-    const auto add = [&](uint32_t item, double y0, double y1) {
-      for (int b = frame.column_y(y0 - margin) / band_rows; b <= frame.column_y(y1 + margin) / band_rows; ++b)
-        (placed ? instances : own)[b].push_back(item);
-    };
-    if (placed) {
-      const Box box = scene.bounds(o);
-      add(o, box.lower.y, box.upper.y);
-    } else {
-      visit_triangles(scene, o, [&](uint64_t t, const std::array<glm::vec3, 3>& corners) {
-        const auto [y0, y1] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
-        add(static_cast<uint32_t>(t), y0, y1);
-      });
-    }
+  std::vector<std::vector<uint32_t>> touching(static_cast<size_t>(bands));
+  for (uint32_t t = 0; t < triangles.size(); ++t) {
+    const auto [first, last] = rows(triangles[t]);
+    for (int b = first / band_rows; b <= last / band_rows; ++b) touching[b].push_back(t);
   }
   tbb::parallel_for(0, bands, [&](int b) {
-    size_t object = 0;
-    for (const uint32_t t : own[b]) {
-      while (t >= scene.objects[object].triangle_end) ++object;
-      const glm::uvec3 v = scene.triangles[t];
-      clip_to_band(b, scene.objects[object].kind == Kind::terrain,
-                   {scene.vertices[v.x], scene.vertices[v.y], scene.vertices[v.z]});
+    for (const uint32_t t : touching[b]) {
+      const PlacedTriangle& triangle = triangles[t];
+      const bool terrain = triangle.kind == Kind::terrain;
+      const auto [first, last] = rows(triangle);
+      for (int j = std::max(first, b * band_rows); j <= std::min(last, (b + 1) * band_rows - 1); ++j) {
+        clip_to_row(uncut(triangle.corner), frame, j, margin, [&](int i, double z0, double z1) {
+          visit(i, j, frame.layer(z0 - margin), frame.layer(z1 + margin), {terrain, static_cast<float>(z1)});
+        });
+      }
     }
-    for (const uint32_t o : instances[b])
-      visit_triangles(scene, o, [&](uint64_t, const std::array<glm::vec3, 3>& corners) {
-        clip_to_band(b, scene.objects[o].kind == Kind::terrain, corners);
-      });
   });
 }
 
-SeedGrid seed_test(const Scene& scene, const GridFrame& frame) {
+SeedGrid seed_test(const std::vector<PlacedTriangle>& triangles, const GridFrame& frame) {
   SeedGrid grid(frame);
-  visit_touched_columns(scene, frame, [&](int i, int j, int k0, int k1, const TouchedColumn& touched) {
+  visit_touched_columns(triangles, frame, [&](int i, int j, int k0, int k1, const TouchedColumn& touched) {
     grid.occupied.set_run(i, j, k0, k1);
     if (!touched.terrain) return;
     float& ground = grid.ground[static_cast<size_t>(j) * frame.nx + i];
     ground = std::fmax(ground, touched.highest_m);
   });
+  return grid;
+}
+
+SeedGrid seed_test(const Scene& scene, const GridFrame& frame) {
+  SeedGrid grid = seed_test(all_triangles(scene), frame);
   const bool any_terrain = std::any_of(scene.objects.begin(), scene.objects.end(),
                                        [](const Object& o) { return o.kind == Kind::terrain; });
   if (!any_terrain) std::fill(grid.ground.begin(), grid.ground.end(), scene.bounds().lower.z);

@@ -3,8 +3,8 @@
 
 #include <functional>
 
-#include "scene/scene.h"
 #include "worker/bit_grid.h"
+#include "worker/placed_triangles.h"
 
 namespace veduta {
 
@@ -15,10 +15,14 @@ struct SeedGrid {
   explicit SeedGrid(const GridFrame& frame);
 };
 
-/// Marks every voxel that a closed triangle of the scene touches. Exact up to a margin of a millionth of a
-/// voxel, which errs towards occupied. A scene without terrain has its ground at its lowest z. The thesis
-/// tests all pairs of triangles and cells and calls it slow (§7.2); here each triangle is clipped to the
-/// columns that its bounds cover, and the z-range of what is left is set as a run: O(voxels touched / 64).
+/// Marks every voxel that a closed triangle touches. Exact up to a margin of a millionth of a voxel, which
+/// errs towards occupied. Triangles may reach out of the frame, and each voxel's answer depends on its place
+/// in the lattice alone. The thesis tests all pairs of triangles and cells and calls it slow (§7.2); here
+/// each triangle is clipped to the columns that its bounds cover, and the z-range of what is left is set as a
+/// run: O(voxels touched / 64).
+SeedGrid seed_test(const std::vector<PlacedTriangle>& triangles, const GridFrame& frame);
+
+/// Of a whole scene. One without terrain has its ground at its lowest z.
 SeedGrid seed_test(const Scene& scene, const GridFrame& frame);
 
 /// What a triangle is in a column that it touches.
@@ -31,6 +35,7 @@ struct TouchedColumn {
 /// k1] that it touches there. Runs in parallel: calls for the same group of 64 rows come one after the other,
 /// others at the same time.
 using ColumnVisitor = std::function<void(int i, int j, int k0, int k1, const TouchedColumn& touched)>;
-void visit_touched_columns(const Scene& scene, const GridFrame& frame, const ColumnVisitor& visit);
+void visit_touched_columns(const std::vector<PlacedTriangle>& triangles, const GridFrame& frame,
+                           const ColumnVisitor& visit);
 
 }  // namespace veduta

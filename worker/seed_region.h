@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include "scene/scene.h"
 #include "worker/bit_grid.h"
 #include "worker/brick_grid.h"
+#include "worker/placed_triangles.h"
 
 namespace veduta {
 
@@ -23,7 +23,11 @@ struct SeedRegion {
   GridFrame seed_frame() const;
 };
 
-/// The seed test and the flood fill of a whole scene, in memory.
+/// The seed test and the flood fill of a part of a city, in memory: what can be reached from above without
+/// leaving the part. \param triangles at least those that touch the frame.
+SeedRegion make_seed_region(const std::vector<PlacedTriangle>& triangles, const GridFrame& frame);
+
+/// Of a whole scene.
 SeedRegion make_seed_region(const Scene& scene, const GridFrame& frame);
 
 /// Voxels of sealed space: not free, and no seed that the fill reached lies in them or beside them (over a

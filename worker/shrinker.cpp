@@ -7,17 +7,6 @@
 
 namespace veduta {
 
-std::vector<PlacedTriangle> all_triangles(const Scene& scene) {
-  std::vector<PlacedTriangle> triangles;
-  triangles.reserve(scene.triangle_count());
-  for (uint32_t o = 0; o < scene.objects.size(); ++o) {
-    visit_triangles(scene, o, [&](uint64_t, const std::array<glm::vec3, 3>& corner) {
-      triangles.push_back({corner, o, scene.objects[o].kind});
-    });
-  }
-  return triangles;
-}
-
 SealedBlock make_sealed_block(const Scene& scene, double seed_size_m) {
   const GridFrame frame = make_frame(scene.bounds(), seeds_per_voxel * seed_size_m);
   return {make_seed_region(scene, frame), all_triangles(scene), 0, frame.nx, 0, frame.ny};

@@ -9,19 +9,10 @@
 
 #include "scene/scene.h"
 #include "worker/occluders.h"
+#include "worker/placed_triangles.h"
 #include "worker/seed_region.h"
 
 namespace veduta {
-
-/// A triangle of the city where it stands.
-struct PlacedTriangle {
-  std::array<glm::vec3, 3> corner;  ///< m, relative to the scene origin
-  uint32_t object = 0;
-  Kind kind = Kind::other;
-};
-
-/// All triangles of a scene, instances included.
-std::vector<PlacedTriangle> all_triangles(const Scene& scene);
 
 /// A piece of the city with a halo around it: all that a shrinking method sees. Every block is shrunk by
 /// itself, so the lattice of blocks is part of the result and the same however work is shared out.

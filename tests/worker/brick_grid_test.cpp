@@ -58,7 +58,7 @@ TEST(SeedBricks, AreTheSeedTestAtTheSizeOfASeed) {
     const GridFrame coarse = make_frame(mesh.scene.bounds(), 0.5);
     const GridFrame fine = fine_frame(coarse);
     const BitGrid occupied = seed_test(mesh.scene, coarse).occupied;
-    const BrickGrid bricks = seed_bricks(mesh.scene, occupied);
+    const BrickGrid bricks = seed_bricks(all_triangles(mesh.scene), occupied);
     const BitGrid least = reference::seed_test(mesh.scene, fine, 0);
     const BitGrid most = reference::seed_test(mesh.scene, fine, 1e-5 * fine.size_m);
     test::each_voxel(fine, [&](int i, int j, int k) {
