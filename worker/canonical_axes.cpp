@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
+#include <tuple>
+#include <vector>
 
 namespace veduta {
 namespace {
@@ -95,14 +98,26 @@ HeightField CanonicalAxes::from_canonical(const HeightField& field) const {
   return turned;
 }
 
-FreeOctree CanonicalAxes::from_canonical(const FreeOctree& octree) const {
+OctreeForest CanonicalAxes::from_canonical(const OctreeForest& forest) const {
   constexpr unsigned mixed = 2;
-  FreeOctree turned = octree;
-  const double edge = std::ldexp(static_cast<double>(octree.leaf_size_m), static_cast<int>(octree.depth));
-  if (swap) std::swap(turned.lower.x, turned.lower.y);
-  if (negate_x) turned.lower.x = static_cast<float>(-(static_cast<double>(turned.lower.x) + edge));
-  if (negate_y) turned.lower.y = static_cast<float>(-(static_cast<double>(turned.lower.y) + edge));
-  if (octree.states.empty()) return turned;
+  OctreeForest turned = forest;
+  // Root n reaches from lower + n edges to lower + (n + 1) edges; negated, it is number -1 - n from -lower.
+  turned.lower = from_canonical(forest.lower);
+  std::vector<uint32_t> queue(
+      forest.roots.size());  // nodes of the canonical forest in the turned one's order
+  std::iota(queue.begin(), queue.end(), 0u);
+  for (glm::ivec3& root : turned.roots) {
+    if (swap) std::swap(root.x, root.y);
+    if (negate_x) root.x = -1 - root.x;
+    if (negate_y) root.y = -1 - root.y;
+  }
+  std::sort(queue.begin(), queue.end(), [&, roots = turned.roots](uint32_t a, uint32_t b) {
+    return std::tie(roots[a].z, roots[a].y, roots[a].x) < std::tie(roots[b].z, roots[b].y, roots[b].x);
+  });
+  std::vector<glm::ivec3> sorted;
+  for (const uint32_t root : queue) sorted.push_back(turned.roots[root]);
+  turned.roots = std::move(sorted);
+
   // The canonical child that lies where child k of the turned tree is.
   const auto source = [&](unsigned k) {
     unsigned x = k & 1u, y = k >> 1 & 1u;
@@ -112,23 +127,22 @@ FreeOctree CanonicalAxes::from_canonical(const FreeOctree& octree) const {
     return x | y << 1 | (k & 4u);
   };
   turned.states.clear(), turned.first_child.clear();
-  std::vector<uint32_t> queue{
-      0};  // nodes of the canonical tree, breadth first, so that siblings stay together
-  for (size_t q = 0; q < queue.size(); ++q) {
-    const unsigned states = octree.states[queue[q]];
+  for (size_t q = 0; q < queue.size(); ++q) {  // breadth first, so that siblings stay together
+    const unsigned states = forest.states[queue[q]];
     std::array<uint32_t, 8> child{};
-    uint32_t next = octree.first_child[queue[q]];
+    uint32_t next = forest.first_child[queue[q]];
     for (unsigned k = 0; k < 8; ++k) {
       if ((states >> 2 * k & 3u) == mixed) child[k] = next++;
     }
     unsigned turned_states = 0;
-    turned.first_child.push_back(static_cast<uint32_t>(queue.size()));
+    const size_t first = queue.size();
     for (unsigned k = 0; k < 8; ++k) {
       const unsigned state = states >> 2 * source(k) & 3u;
       turned_states |= state << 2 * k;
       if (state == mixed) queue.push_back(child[source(k)]);
     }
     turned.states.push_back(static_cast<uint16_t>(turned_states));
+    turned.first_child.push_back(queue.size() > first ? static_cast<uint32_t>(first) : 0);
   }
   return turned;
 }

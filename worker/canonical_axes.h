@@ -43,7 +43,7 @@ struct CanonicalAxes {
   /// Faces go counter-clockwise seen from outside as before.
   void turn_back(OccluderMesh& mesh) const;
   HeightField from_canonical(const HeightField& field) const;
-  FreeOctree from_canonical(const FreeOctree& octree) const;
+  OctreeForest from_canonical(const OctreeForest& forest) const;
 };
 
 /// The axes in which the wider spread of the triangles' corners is along x, and in which they lean (third

@@ -61,8 +61,7 @@ int voxels(double metres, double voxel_m) {
   return static_cast<int>(std::min(std::ceil(metres / voxel_m), 1e8));
 }
 
-}  // namespace
-
+/// Half-extents of the windows that occluders are made for: parts of cells, and whole cells.
 std::vector<glm::dvec3> window_half_extents(const Settings& settings) {
   const double margin = settings.stereo.eye_margin_m, vertical = settings.cells.height_m / 2 + margin;
   const auto of = [&](int parts) {
@@ -72,6 +71,8 @@ std::vector<glm::dvec3> window_half_extents(const Settings& settings) {
   if (settings.occlusion.subdivide <= 1) return {of(1)};
   return {of(settings.occlusion.subdivide), of(1)};
 }
+
+}  // namespace
 
 PreparationPlan make_plan(const Scene& scene, const Settings& settings, const PartSizes& sizes) {
   PreparationPlan plan;

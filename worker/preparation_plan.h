@@ -60,10 +60,6 @@ struct PreparationPlan {
 /// memory or the city has too many of them, naming one that fits.
 PreparationPlan make_plan(const Scene& scene, const Settings& settings, const PartSizes& sizes = {});
 
-/// Half-extents of the windows that occluders are made for, eye margin included: parts of cells, then (if
-/// they are another size) whole cells.
-std::vector<glm::dvec3> window_half_extents(const Settings& settings);
-
 void write_plan(const RunPaths& run, const PreparationPlan& plan);
 /// \throw Error(bad_input) when it is missing or damaged.
 PreparationPlan read_plan(const RunPaths& run);
