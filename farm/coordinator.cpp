@@ -35,7 +35,7 @@ void Coordinator::start() {
   log_.info("started", json{{"attempt", tally_.attempt}, {"ranks", transport_.size()}});
   if (city) return begin_baking();
   phase_ = Phase::preparing;
-  preparing_.emplace(transport_, log_, progress_, now_s());
+  preparing_.emplace(transport_, options_.run, log_, progress_, now_s());
 }
 
 /// What the journal holds: these cells are not baked again.
@@ -196,7 +196,7 @@ void Coordinator::hand_out() {
 void Coordinator::tick(bool stop) {
   if (phase_ == Phase::finishing) return;
   if (stop) return finish(true);
-  if (preparing_) preparing_->tick();
+  if (preparing_) preparing_->tick(now_s());
   if (phase_ != Phase::baking) return;
   if (book_->complete()) return finish(false);
   hand_out();

@@ -4,7 +4,19 @@
 
 namespace veduta {
 
-void PreparationBook::begin(Stage stage, uint32_t parts) {
+PreparationBook::PreparationBook(const PreparationState& state) : tiles_(state.tiles), blocks_(state.blocks) {
+  begin(state.stage);
+  for (const uint32_t part : state.done)
+    if (part < states_.size()) states_[part] = State::settled;
+  std::erase_if(queue_, [&](uint32_t part) { return states_[part] == State::settled; });
+  outstanding_ = queue_.size();
+  begin_next_stage();
+}
+
+void PreparationBook::begin(Stage stage) {
+  const uint32_t parts = stage == Stage::flood || stage == Stage::cells ? tiles_
+                         : stage == Stage::shrink                       ? blocks_
+                                                                        : 1;
   stage_ = stage;
   states_.assign(parts, State::settled);
   kills_.assign(parts, 0);
@@ -12,20 +24,22 @@ void PreparationBook::begin(Stage stage, uint32_t parts) {
   for (uint32_t part = 0; part < parts; ++part) want(part);
 }
 
-/// Stages without parts are passed over.
+/// When this one is done. Stages without parts are passed over.
 void PreparationBook::begin_next_stage() {
-  while (!complete_ && outstanding_ == 0) {
-    if (stage_ == Stage::import)
-      begin(Stage::flood, tiles_);
-    else if (stage_ == Stage::flood)
-      begin(Stage::cells, tiles_);
-    else if (stage_ == Stage::cells)
-      begin(Stage::shrink, blocks_);
-    else if (stage_ == Stage::shrink)
-      begin(Stage::finish, 1);
-    else
+  while (!complete_ && outstanding_ == 0)
+    if (stage_ == Stage::finish)
       complete_ = true;
-  }
+    else
+      begin(static_cast<Stage>(static_cast<uint32_t>(stage_) + 1));
+}
+
+PreparationState PreparationBook::state() const {
+  PreparationState state{stage_, tiles_, blocks_, {}};
+  // Air that a tile let in may still have to go on into others.
+  if (stage_ == Stage::flood) return state;
+  for (uint32_t part = 0; part < states_.size(); ++part)
+    if (states_[part] == State::settled) state.done.push_back(part);
+  return state;
 }
 
 void PreparationBook::want(uint32_t part) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "farm/leases.h"
-#include "worker/protocol.h"
+#include "farm/preparation_state.h"
 
 namespace veduta {
 
@@ -26,7 +26,8 @@ class PreparationBook {
  public:
   static constexpr int kills_allowed = 3;
 
-  PreparationBook() { begin(Stage::import, 1); }
+  /// Continues where a preparation stopped; begins with the import when it did not get beyond that.
+  explicit PreparationBook(const PreparationState& state = {});
 
   /// The next part for an idle worker, nullopt when there is nothing for it to do now. A worker that holds a
   /// part gets no other.
@@ -44,6 +45,8 @@ class PreparationBook {
   /// \return a part that has now killed its worker three times in a row: the preparation cannot go on.
   std::optional<PreparationPart> lost(WorkerId worker, bool counts);
 
+  /// What would not have to be done again if all were to stop now.
+  PreparationState state() const;
   bool complete() const { return complete_; }
   Stage stage() const { return stage_; }
   /// Parts of this stage, each time that one was done.
@@ -54,7 +57,7 @@ class PreparationBook {
 
  private:
   enum class State : uint8_t { settled, queued, held, held_and_wanted };
-  void begin(Stage stage, uint32_t parts);
+  void begin(Stage stage);
   void begin_next_stage();
   void want(uint32_t part);
   uint32_t let_go(WorkerId worker);

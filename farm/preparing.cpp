@@ -9,6 +9,20 @@ namespace veduta {
 
 using nlohmann::json;
 
+Preparing::Preparing(Transport& transport, RunPaths run, RunLog& log, Progress& progress, double now_s)
+    : transport_(transport),
+      run_(std::move(run)),
+      log_(log),
+      progress_(progress),
+      book_(read_preparation_state(run_).value_or(PreparationState())),
+      stage_began_s_(now_s) {
+  if (book_.stage() == Stage::import) return;
+  const uint64_t done = book_.parts() - book_.outstanding();
+  log_.info("preparation continues", json{{"stage", name_of(book_.stage())}, {"done", done}});
+  progress_.note(fmt::format("continuing the preparation: {}, {} of {} parts are done",
+                             name_of(book_.stage()), done, book_.parts()));
+}
+
 void Preparing::on_prepared(WorkerId worker, const PreparedMessage& message, double now_s) {
   const Stage stage = book_.stage();
   const uint32_t parts = book_.parts();
@@ -19,6 +33,13 @@ void Preparing::on_prepared(WorkerId worker, const PreparedMessage& message, dou
   tally_.peak_mb = std::max(tally_.peak_mb, message.peak_mb);
   book_.done(worker, {message.again.begin(), message.again.begin() + message.again_count});
   if (book_.complete() || book_.stage() != stage) close_stage(stage, parts, now_s);
+}
+
+/// Once a second is enough: more than that is not lost.
+void Preparing::save(double now_s) {
+  if (book_.stage() == Stage::import || book_.finished() == saved_ || now_s - saved_s_ < 1) return;
+  if (book_.stage() != Stage::flood) write_preparation_state(run_, book_.state());
+  saved_ = book_.finished(), saved_s_ = now_s;
 }
 
 void Preparing::close_stage(Stage stage, uint32_t parts, double now_s) {
@@ -35,7 +56,9 @@ void Preparing::close_stage(Stage stage, uint32_t parts, double now_s) {
                         tally_.runs, tally_.runs == 1 ? "" : "s", tally_.seconds, tally_.peak_mb));
   stages_.push_back(tally_);
   tally_ = {};
-  stage_began_s_ = now_s;
+  stage_began_s_ = saved_s_ = now_s;
+  saved_ = 0;
+  if (!book_.complete()) write_preparation_state(run_, book_.state());
 }
 
 std::optional<std::string> Preparing::on_lost(WorkerId worker, const LostMessage& message) {
@@ -45,8 +68,9 @@ std::optional<std::string> Preparing::on_lost(WorkerId worker, const LostMessage
   return fmt::format("{}, part {} of {}", name_of(condemned->stage), condemned->part + 1, book_.parts());
 }
 
-void Preparing::tick() {
+void Preparing::tick(double now_s) {
   if (book_.complete()) return;
+  save(now_s);
   for (auto worker = waiting_.begin(); worker != waiting_.end();) {
     const auto part = book_.grant(worker->first);
     if (!part) break;

@@ -27,8 +27,8 @@ struct StageTally {
 /// Times are those of any steadily growing clock, s.
 class Preparing {
  public:
-  Preparing(Transport& transport, RunLog& log, Progress& progress, double now_s)
-      : transport_(transport), log_(log), progress_(progress), stage_began_s_(now_s) {}
+  /// Goes on with what prepared.tmp/ holds of this job.
+  Preparing(Transport& transport, RunPaths run, RunLog& log, Progress& progress, double now_s);
 
   void on_waiting(WorkerId worker, const WaitingMessage& message) { waiting_[worker] = message.life; }
   /// \throw Error(defect) for an answer that makes no sense.
@@ -36,7 +36,7 @@ class Preparing {
   /// \return what the preparation cannot get over: "flood, part 3 of 20", after three deaths over one part.
   std::optional<std::string> on_lost(WorkerId worker, const LostMessage& message);
   /// Hands parts out and shows progress.
-  void tick();
+  void tick(double now_s);
 
   bool complete() const { return book_.complete(); }
   const CityCounts& city() const { return city_; }
@@ -44,8 +44,10 @@ class Preparing {
 
  private:
   void close_stage(Stage stage, uint32_t parts, double now_s);
+  void save(double now_s);
 
   Transport& transport_;
+  RunPaths run_;
   RunLog& log_;
   Progress& progress_;
   PreparationBook book_;
@@ -53,7 +55,8 @@ class Preparing {
   CityCounts city_;
   StageTally tally_;  ///< of the stage now
   std::vector<StageTally> stages_;
-  double stage_began_s_ = 0;
+  double stage_began_s_ = 0, saved_s_ = 0;
+  uint64_t saved_ = 0;  ///< of the stage's parts that were done
 };
 
 /// "import 2.1 s, flood 0.8 s, ...".

@@ -75,6 +75,10 @@ fs::path worker_log(const RunPaths& run, uint32_t attempt, int rank, uint32_t sl
   return worker_logs(run) / (worker_name(attempt, rank, slot) + ".log");
 }
 
+fs::path unfinished_preparation(const RunPaths& run) {
+  return run.directory / "prepared.tmp";
+}
+
 uint32_t next_attempt(const RunPaths& run) {
   uint32_t highest = 0;
   for (const fs::path& directory : {run.shards(), worker_logs(run)}) {
@@ -109,8 +113,8 @@ void remove_unfinished_files(const RunPaths& run) {
 }
 
 void remove_run(const RunPaths& run) {
-  for (const fs::path& each : {run.shards(), run.prepared(), worker_logs(run), run.settings(),
-                               run.fingerprint(), run.log(), run.report(), run.result()}) {
+  for (const fs::path& each : {run.shards(), run.prepared(), unfinished_preparation(run), worker_logs(run),
+                               run.settings(), run.fingerprint(), run.log(), run.report(), run.result()}) {
     std::error_code code;
     fs::remove_all(each, code);
     if (code) cannot_write(each, code.value());

@@ -18,6 +18,9 @@ std::filesystem::path all_visible_shard_file(const RunPaths& run, uint32_t attem
 /// Standard error of a worker: "workers/0002-0001-00.log".
 std::filesystem::path worker_log(const RunPaths& run, uint32_t attempt, int rank, uint32_t slot);
 
+/// Where the steps of a preparation leave their files for each other (worker/preparation.h).
+std::filesystem::path unfinished_preparation(const RunPaths& run);
+
 /// One more than the highest attempt that left a shard or a worker's log.
 uint32_t next_attempt(const RunPaths& run);
 

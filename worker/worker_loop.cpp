@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -72,7 +73,10 @@ class Worker {
 
   /// The steps are not apart yet: all is done in the last one.
   static json done_part(const RunPaths& run, const std::string& stage) {
-    if (stage == name_of(Stage::import)) return {{"tiles", 0}, {"blocks", 0}};
+    if (stage == name_of(Stage::import)) {
+      std::filesystem::create_directories(run.directory / "prepared.tmp");
+      return {{"tiles", 0}, {"blocks", 0}};
+    }
     const Prepared prepared = prepare(load_settings(run.settings()));
     write_prepared(run.directory, prepared);
     const City& city = prepared.city;

@@ -64,6 +64,14 @@ TEST_F(BakePreparation, ThreeDeathsOverOnePartAreNamed) {
       << output;
   EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 1) << output;
   EXPECT_EQ(run(bake()), 0) << output;
+  EXPECT_NE(output.find("continuing the preparation: shrink"), std::string::npos) << output;
+  EXPECT_TRUE(log("stage").back()["stage"] == "finish" && log("stage").size() == 5) << "nothing twice";
+}
+
+TEST_F(BakePreparation, FreshForgetsAnUnfinishedPreparation) {
+  EXPECT_EQ(run(bake("-q"), {{"FAKE_PREPARE_DIES", "cells-0"}}), 70) << output;
+  EXPECT_EQ(run(bake("--fresh")), 0) << output;
+  EXPECT_EQ(output.find("continuing"), std::string::npos) << output;
 }
 
 TEST_F(BakePreparation, SignalStopsItAndItStartsAgain) {

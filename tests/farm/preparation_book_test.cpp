@@ -82,6 +82,26 @@ TEST(PreparationBook, ThirdDeathInARowCondemns) {
   EXPECT_EQ(die(true), (PreparationPart{Stage::flood, 0, true}));
 }
 
+TEST(PreparationBook, ContinuesWithWhatIsLeftOfAStage) {
+  PreparationBook book = imported(3, 2);
+  for (int tile = 0; tile < 2; ++tile) {
+    ASSERT_TRUE(book.grant(first));
+    book.done(first);
+  }
+  EXPECT_TRUE(book.state().done.empty()) << "a flood is done when all of it is";
+  ASSERT_TRUE(book.grant(first));
+  book.done(first);
+  ASSERT_EQ(book.grant(first), (PreparationPart{Stage::cells, 0}));
+  ASSERT_EQ(book.grant(second), (PreparationPart{Stage::cells, 1}));
+  book.done(second);
+  PreparationBook continued(book.state());
+  EXPECT_EQ(continued.grant(second), (PreparationPart{Stage::cells, 0}));
+  EXPECT_EQ(continued.grant(first), (PreparationPart{Stage::cells, 2}));
+  continued.done(first);
+  continued.done(second);
+  EXPECT_EQ(PreparationBook(continued.state()).grant(first), (PreparationPart{Stage::shrink, 0}));
+}
+
 TEST(PreparationBook, AnswersThatMakeNoSenseAreDefects) {
   PreparationBook book = imported(2, 1);
   EXPECT_THROW(book.done(first), Error) << "it was asked for nothing";
@@ -135,7 +155,7 @@ class Floods {
   uint32_t source_ = 0;
 };
 
-// Any schedule, with deaths before a part began, in its middle, and after its files were written.
+// Any schedule, with stops, and deaths before a part began, in its middle, and after its files were written.
 TEST(PreparationBook, RandomSchedulesAndDeathsEndInTheSettledFlood) {
   constexpr uint32_t blocks = 7, workers = 4;
   uint64_t repeats = 0;
@@ -153,6 +173,17 @@ TEST(PreparationBook, RandomSchedulesAndDeathsEndInTheSettledFlood) {
     Stage last = Stage::import;
     int turns = 0;
     for (; !book.complete() && turns < 20000; ++turns) {
+      if (random() % 100 == 0) {  // all stop at once, and go on with what is known to be done
+        for (Hand& hand : hands) {
+          if (hand.part && hand.part->stage == Stage::flood && random() % 2 == 0)
+            floods.end(hand.part->part, hand.air, false);
+          hand.part.reset();
+        }
+        in_hands.clear();
+        std::fill(deaths.begin(), deaths.end(), 0);
+        book = PreparationBook(book.state());
+        continue;
+      }
       const auto number = static_cast<uint32_t>(random() % workers);
       const WorkerId worker{static_cast<int>(number), 0};
       Hand& hand = hands[number];
