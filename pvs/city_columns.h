@@ -6,9 +6,11 @@
 
 namespace veduta {
 
-/// Writes /scene, /navigation and /cells/bounds. Adds the digests of what it wrote.
-void write_city_columns(hdf5::Output& output, const City& city, ColumnDigests& digests);
-/// Reads what write_city_columns wrote. Digests are compared, relations not yet.
+/// Writes /scene. Adds the digests of what it wrote.
+void write_scene_columns(hdf5::Output& output, const City& city, ColumnDigests& digests);
+/// Writes /navigation and /cells/bounds, likewise.
+void write_place_columns(hdf5::Output& output, const City& city, ColumnDigests& digests);
+/// Reads what these two wrote. Digests are compared, relations not yet.
 City read_city_columns(const hdf5::Input& input, ColumnDigests& digests);
 
 /// Writes and reads the root's attributes. Reading compares the format, the version and the digest over them.

@@ -79,7 +79,9 @@ void write_geometry(Output& output, const Scene& scene, ColumnDigests& digests) 
   digests[column::material.path] = material.finish();
 }
 
-void write_scene(Output& output, const City& city, ColumnDigests& digests) {
+}  // namespace
+
+void write_scene_columns(Output& output, const City& city, ColumnDigests& digests) {
   const Scene& scene = city.scene;
   for (const char* group : {"/scene", "/scene/objects", "/scene/parts"}) output.group(group);
   static_assert(sizeof(glm::vec3) == 12 && sizeof(glm::uvec3) == 12 && sizeof(Box) == 24 &&
@@ -105,6 +107,8 @@ void write_scene(Output& output, const City& city, ColumnDigests& digests) {
       output, column::part_end, scene.parts, [](const Part& p) { return p.triangle_end; }, digests);
 }
 
+namespace {
+
 void write_navigation(Output& output, const Navigation& navigation, ColumnDigests& digests) {
   for (const char* group : {"/navigation", "/navigation/octree", "/navigation/ground"}) output.group(group);
   const FreeOctree& octree = navigation.free;
@@ -125,8 +129,7 @@ void write_navigation(Output& output, const Navigation& navigation, ColumnDigest
 
 }  // namespace
 
-void write_city_columns(Output& output, const City& city, ColumnDigests& digests) {
-  write_scene(output, city, digests);
+void write_place_columns(Output& output, const City& city, ColumnDigests& digests) {
   write_navigation(output, city.navigation, digests);
   output.group("/cells");
   write_rows(output, column::cell_bounds, city.cells, digests);

@@ -24,7 +24,7 @@ uint64_t free_bytes(const std::filesystem::path& file) {
 
 }  // namespace
 
-Output::Output(const std::filesystem::path& file) : path_(file) {
+Output::Output(const std::filesystem::path& file, Start start) : path_(file) {
   prepare_library();
   require_space(0);
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -35,8 +35,11 @@ Output::Output(const std::filesystem::path& file) : path_(file) {
       H5Pset_file_locking(access.get(), false, true) < 0 || H5Pset_obj_track_times(create.get(), false) < 0 ||
       H5Pset_attr_phase_change(create.get(), 64, 32) < 0)
     fail("/", "HDF5 refuses its settings");
-  file_ = {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, create.get(), access.get()), H5Fclose};
-  if (!file_.valid()) fail("/", "cannot create the file; is the directory there and writable?");
+  if (start == Start::anew)
+    file_ = {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, create.get(), access.get()), H5Fclose};
+  else
+    file_ = {H5Fopen(file.c_str(), H5F_ACC_RDWR, access.get()), H5Fclose};
+  if (!file_.valid()) fail("/", "cannot open the file for writing; is the directory there and writable?");
 }
 
 void Output::fail(const char* place, const char* what) const {

@@ -13,11 +13,13 @@
 
 namespace veduta::hdf5 {
 
-/// A new file. Readable by every HDF5 from 1.8 on; the bytes depend on the content alone (no time stamps).
+/// A file to be written. Readable by every HDF5 from 1.8 on; the bytes depend on the content alone (no time
+/// stamps).
 class Output {
  public:
+  enum class Start { anew, go_on };  ///< go_on: with a file that an Output closed
   /// \throw Error(input_output) here and below.
-  explicit Output(const std::filesystem::path& file);
+  explicit Output(const std::filesystem::path& file, Start start = Start::anew);
 
   void group(const char* path);
   void attribute(const char* object, const char* name, const std::string& text);

@@ -28,7 +28,6 @@ Defect check_arrays(const City& city) {
   if (vertices > UINT32_MAX) return "/scene/vertices: more than 2^32 - 1";
   if (scene.instances.size() > scene.objects.size()) return "/scene/objects: fewer than instances";
   if (scene.objects.size() > UINT32_MAX) return "/scene/objects: more than 2^32 - 1";
-  if (city.cells.size() > UINT32_MAX) return "/cells/bounds: more than 2^32 - 1";
   if (city.triangle_slices.size() != scene.triangle_count())
     return "/scene/triangle_slice: not one for each triangle";
   if (city.slices.size() != scene.objects.size()) return "/scene/objects/slices: not one for each object";
@@ -150,6 +149,7 @@ Defect check_ground(const HeightField& ground) {
 }
 
 Defect check_cells(const std::vector<Box>& cells) {
+  if (cells.size() > UINT32_MAX) return "/cells/bounds: more than 2^32 - 1";
   for (size_t i = 0; i < cells.size(); ++i)
     if (!finite(cells[i].lower) || !finite(cells[i].upper) || cells[i].empty())
       return fmt::format("/cells/bounds: cell {} is not a box", i);
@@ -165,13 +165,21 @@ bool index_within(VisibilityIndex index, SliceCounts n) {
 
 }  // namespace
 
-Defect find_defect(const City& city) {
+Defect find_scene_defect(const City& city) {
   if (Defect defect = check_arrays(city)) return defect;
   if (Defect defect = check_geometry(city.scene)) return defect;
-  if (Defect defect = check_objects(city)) return defect;
+  return check_objects(city);
+}
+
+Defect find_place_defect(const City& city) {
   if (Defect defect = check_cells(city.cells)) return defect;
   if (Defect defect = check_octree(city.navigation.free)) return defect;
   return check_ground(city.navigation.ground);
+}
+
+Defect find_defect(const City& city) {
+  if (Defect defect = find_scene_defect(city)) return defect;
+  return find_place_defect(city);
 }
 
 Defect find_defect(const PvsEntry* first, const PvsEntry* last, const std::vector<SliceCounts>& slices) {

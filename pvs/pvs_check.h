@@ -10,6 +10,9 @@ namespace veduta {
 
 /// Every relation between the arrays of a city. \return "DATASET: what" for the first that does not hold.
 std::optional<std::string> find_defect(const City& city);
+/// Those of the scene and its slices; those of cells and navigation.
+std::optional<std::string> find_scene_defect(const City& city);
+std::optional<std::string> find_place_defect(const City& city);
 
 /// Objects ascending and in range, indices within the objects' slices. \return what does not hold.
 std::optional<std::string> find_defect(const PvsEntry* first, const PvsEntry* last,

@@ -84,6 +84,13 @@ std::string write_pvs(const std::filesystem::path& file, const City& city, const
 void write_city(const std::filesystem::path& file, const City& city);
 City read_city(const std::filesystem::path& file);
 
+/// The same in two steps, the large part once and first: a file of scene and slices, which is no prepared
+/// city yet, and then one that has its copy, the cells, the navigation and `scene.crs` and `scene.origin` of
+/// `places`. \throw Error(bad_input) for a scene file that is missing or damaged, else as write_city.
+void write_city_scene(const std::filesystem::path& scene_file, const City& city);
+void complete_city(const std::filesystem::path& scene_file, const std::filesystem::path& file,
+                   const City& places);
+
 /// Sizes as people ask for them (`veduta info`): several lines, or JSON.
 std::string describe(const PvsFile& file, const std::filesystem::path& path);
 std::string describe_json(const PvsFile& file, const std::filesystem::path& path);

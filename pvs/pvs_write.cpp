@@ -123,7 +123,8 @@ std::string write_pvs(const std::filesystem::path& file, const City& city, const
       [&](const std::filesystem::path& temporary) {
         Output output(temporary);
         output.require_space(least_bytes(city));
-        write_city_columns(output, city, digests);
+        write_scene_columns(output, city, digests);
+        write_place_columns(output, city, digests);
         output.group("/pvs");
         RowWriter rows(output, city);
         for (uint32_t c = 0; c < city.cells.size(); ++c) {
@@ -149,7 +150,8 @@ void write_city(const std::filesystem::path& file, const City& city) {
       [&](const std::filesystem::path& temporary) {
         Output output(temporary);
         output.require_space(least_bytes(city));
-        write_city_columns(output, city, digests);
+        write_scene_columns(output, city, digests);
+        write_place_columns(output, city, digests);
         root.content_digest = content_digest(city, root.header.conservative, digests);
         write_root(output, root);
         output.close();

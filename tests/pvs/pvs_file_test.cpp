@@ -171,6 +171,31 @@ TEST(PvsFile, PreparedCityRoundTripsAndIsNoResult) {
   EXPECT_NE(message.find("veduta-city"), std::string::npos) << message;
 }
 
+TEST(PvsFile, ACityInTwoStepsIsTheSameCity) {
+  TemporaryDirectory directory;
+  const City city = small_city();
+  City scene = city, places = city;
+  scene.cells.clear(), scene.navigation = {};
+  places.scene = {}, places.slices.clear(), places.triangle_slices.clear();
+  places.scene.crs = city.scene.crs, places.scene.origin = city.scene.origin;
+  write_city_scene(directory / "scene.h5", scene);
+  EXPECT_EQ(status_of([&] { read_city(directory / "scene.h5"); }), ExitStatus::bad_input) << "half a city";
+  const std::string half = test::read_bytes(directory / "scene.h5");
+  for (int time = 0; time < 2; ++time) {  // the first step stays, so the second can be done again
+    complete_city(directory / "scene.h5", directory / "city.h5", places);
+    expect_same(city, read_city(directory / "city.h5"));
+    EXPECT_EQ(test::read_bytes(directory / "scene.h5"), half);
+  }
+  places.cells.front().upper.x = NAN;
+  EXPECT_EQ(status_of([&] { complete_city(directory / "scene.h5", directory / "b.h5", places); }),
+            ExitStatus::defect);
+  places = city;
+  test::write_bytes(directory / "scene.h5", half.substr(0, half.size() / 2));
+  EXPECT_EQ(status_of([&] { complete_city(directory / "scene.h5", directory / "b.h5", places); }),
+            ExitStatus::bad_input);
+  EXPECT_FALSE(std::filesystem::exists(directory / "b.h5"));
+}
+
 TEST(PvsFile, FailureLeavesTheOldFileAndNothingElse) {
   TemporaryDirectory directory;
   write_small(directory / "a.h5");
