@@ -40,7 +40,6 @@ struct PrepareMessage {  ///< a part of the preparation for the child that waits
   uint32_t slot = 0;
   uint32_t life = 0;  ///< of WaitingMessage: when that child died meanwhile, its successor does not begin
   uint32_t stage = 0, part = 0;
-  uint32_t after_death = 0;  ///< its last holder died over it
 };
 struct OpenMessage {  ///< prepared/ is there: every child opens it
   static constexpr uint32_t verb = 3;

@@ -68,7 +68,7 @@ std::optional<PreparationPart> PreparationBook::grant(WorkerId worker) {
   queue_.pop_front();
   states_[part] = State::held;
   held_[worker] = part;
-  return PreparationPart{stage_, part, kills_[part] > 0};
+  return PreparationPart{stage_, part};
 }
 
 void PreparationBook::done(WorkerId worker, const std::vector<uint32_t>& again) {
@@ -90,7 +90,7 @@ std::optional<PreparationPart> PreparationBook::lost(WorkerId worker, bool count
   want(part);
   if (!counts) return std::nullopt;
   if (++kills_[part] < kills_allowed) return std::nullopt;
-  return PreparationPart{stage_, part, true};
+  return PreparationPart{stage_, part};
 }
 
 }  // namespace veduta

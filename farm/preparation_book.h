@@ -16,7 +16,6 @@ namespace veduta {
 struct PreparationPart {
   Stage stage = Stage::import;
   uint32_t part = 0;
-  bool after_death = false;  ///< its last holder died over it
   auto operator<=>(const PreparationPart&) const = default;
 };
 
@@ -40,9 +39,8 @@ class PreparationBook {
   /// comes again after that. \throw Error(defect) for a tile that there is not.
   void done(WorkerId worker, const std::vector<uint32_t>& again = {});
 
-  /// The worker died; its part comes again. `counts`: it had begun it. A tile of the flood may have let more
-  /// into itself and its worker not have lived to tell: flooded after a death, it must name all neighbours.
-  /// \return a part that has now killed its worker three times in a row: the preparation cannot go on.
+  /// The worker died; its part comes again. `counts`: it had begun it. \return a part that has now killed its
+  /// worker three times in a row: the preparation cannot go on.
   std::optional<PreparationPart> lost(WorkerId worker, bool counts);
 
   /// What would not have to be done again if all were to stop now.

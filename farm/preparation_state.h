@@ -17,7 +17,8 @@ struct PreparationState {
   std::vector<uint32_t> done;  ///< parts of the stage; none of a flood, which is only done as a whole
 };
 
-/// Written beside what the import wrote, and removed with that. \throw Error(input_output).
+/// Syncs what the parts have written first. The state lies beside what the import wrote, and removed with
+/// that. \throw Error(input_output).
 void write_preparation_state(const RunPaths& run, const PreparationState& state);
 /// nullopt when there is nothing to continue.
 std::optional<PreparationState> read_preparation_state(const RunPaths& run);

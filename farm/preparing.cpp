@@ -9,6 +9,12 @@ namespace veduta {
 
 using nlohmann::json;
 
+namespace {
+
+constexpr double save_interval_s = 10;  // syncing costs time, so does doing parts again
+
+}  // namespace
+
 Preparing::Preparing(Transport& transport, RunPaths run, RunLog& log, Progress& progress, double now_s)
     : transport_(transport),
       run_(std::move(run)),
@@ -35,9 +41,9 @@ void Preparing::on_prepared(WorkerId worker, const PreparedMessage& message, dou
   if (book_.complete() || book_.stage() != stage) close_stage(stage, parts, now_s);
 }
 
-/// Once a second is enough: more than that is not lost.
 void Preparing::save(double now_s) {
-  if (book_.stage() == Stage::import || book_.finished() == saved_ || now_s - saved_s_ < 1) return;
+  if (book_.stage() == Stage::import || book_.finished() == saved_ || now_s - saved_s_ < save_interval_s)
+    return;
   if (book_.stage() != Stage::flood) write_preparation_state(run_, book_.state());
   saved_ = book_.finished(), saved_s_ = now_s;
 }
@@ -77,7 +83,6 @@ void Preparing::tick(double now_s) {
     PrepareMessage message;
     message.slot = static_cast<uint32_t>(worker->first.slot), message.life = worker->second;
     message.stage = static_cast<uint32_t>(part->stage), message.part = part->part;
-    message.after_death = part->after_death;
     transport_.send(worker->first.rank, message);
     worker = waiting_.erase(worker);
   }

@@ -98,7 +98,6 @@ void Shepherd::prepare(const PrepareMessage& message) {
   slot.child->send(Verb::prepare, json{{"directory", absolute_directory(options_.run)},
                                        {"stage", name_of(stage)},
                                        {"part", message.part},
-                                       {"after_death", message.after_death != 0},
                                        {"threads", alone ? options_.cores : options_.threads_per_worker}}
                                       .dump());
 }

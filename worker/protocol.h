@@ -24,13 +24,11 @@ inline constexpr size_t neighbour_limit = 8;
 /// encoded CellRecord.
 enum class Verb : uint32_t {
   // shepherd to worker
-  prepare =
-      1,     ///< {"directory", "stage", "part", "threads", "after_death"}: do a part of the preparation with
-             ///< so many threads, answer `prepared`. What passes between parts lies in prepared.tmp/. A tile
-             ///< that is flooded after the death of a worker that flooded it names all its neighbours
-  open = 2,  ///< {"directory"}: load prepared/, make a GL context, answer `opened`
-  bake = 3,  ///< {"cells": [u32...]}: answer one `cell_baked` per cell, in order, then `lease_done`
-  quit = 4,  ///< {}: leave with status 0 (closing standard input means the same)
+  prepare = 1,  ///< {"directory", "stage", "part", "threads"}: do this part, answer `prepared`; what passes
+                ///< between parts lies in prepared.tmp/
+  open = 2,     ///< {"directory"}: load prepared/, make a GL context, answer `opened`
+  bake = 3,     ///< {"cells": [u32...]}: answer one `cell_baked` per cell, in order, then `lease_done`
+  quit = 4,     ///< {}: leave with status 0 (closing standard input means the same)
   // worker to shepherd
   hello = 16,       ///< {"pid", "version"}: sent first
   prepared = 17,    ///< {"stage", "part", "seconds", "peak_mb", "notes": [text...]}; besides `import`:

@@ -24,14 +24,14 @@ class FakePreparation {
   const std::filesystem::path& directory() const { return directory_; }
   const std::vector<uint32_t>& again() const { return again_; }
 
-  void do_part(const std::string& stage, uint32_t part, bool after_death) {
+  void do_part(const std::string& stage, uint32_t part) {
     if (stage == "import") {
       std::filesystem::remove_all(directory_);
       std::filesystem::create_directories(directory_);
     }
     take(stage, part);
     if (stage == "flood")
-      flood(part, after_death);
+      flood(part);
     else if (stage == "cells")
       for (uint32_t tile = 0; tile < tiles; ++tile) require("flood", tile);
     else if (stage == "shrink")
@@ -63,12 +63,13 @@ class FakePreparation {
     std::ofstream(held(stage, part)) << getpid();
   }
 
-  void flood(uint32_t tile, bool after_death) {
-    const bool air = tile + 1 == tiles || there("flood", tile + 1) || (tile > 0 && there("flood", tile - 1));
-    if (!after_death && (!air || there("flood", tile))) return;
-    if (air) leave("flood", tile);
-    if (tile > 0) again_.push_back(tile - 1);
-    if (tile + 1 < tiles) again_.push_back(tile + 1);
+  /// Names the neighbours without air, so that one who asks after a death hears the same.
+  void flood(uint32_t tile) {
+    const bool below = tile > 0, above = tile + 1 < tiles;
+    if (above && !there("flood", tile + 1) && !(below && there("flood", tile - 1))) return;
+    leave("flood", tile);
+    if (below && !there("flood", tile - 1)) again_.push_back(tile - 1);
+    if (above && !there("flood", tile + 1)) again_.push_back(tile + 1);
   }
 
   std::filesystem::path directory_;

@@ -127,7 +127,7 @@ class FakeWorker {
     }
     const RunPaths run{request.at("directory").get<std::string>()};
     FakePreparation preparation(run.directory / "prepared.tmp");
-    preparation.do_part(stage, part, request.at("after_death").get<bool>());
+    preparation.do_part(stage, part);
     if (stage == "finish") {
       write_city(preparation.directory() / "city.h5", tiny_city(cells_));
       std::filesystem::rename(preparation.directory(), run.prepared());

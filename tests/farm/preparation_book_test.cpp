@@ -79,7 +79,7 @@ TEST(PreparationBook, ThirdDeathInARowCondemns) {
   book.done(first, {0});  // alive after all
   EXPECT_FALSE(die(true));
   EXPECT_FALSE(die(true));
-  EXPECT_EQ(die(true), (PreparationPart{Stage::flood, 0, true}));
+  EXPECT_EQ(die(true), (PreparationPart{Stage::flood, 0}));
 }
 
 TEST(PreparationBook, ContinuesWithWhatIsLeftOfAStage) {
@@ -132,12 +132,13 @@ class Floods {
       if (open_[tile * tiles + other] && air_[other]) return true;
     return false;
   }
-  std::vector<uint32_t> end(uint32_t tile, bool air, bool after_death) {
+  /// Names those that have not taken what there is to take now: also after a death, of which they were not
+  /// told.
+  std::vector<uint32_t> end(uint32_t tile, bool air) {
     std::vector<uint32_t> again;
-    if (!after_death && (!air || air_[tile])) return again;
     air_[tile] = air;
     for (uint32_t other = 0; other < tiles; ++other)
-      if (open_[tile * tiles + other]) again.push_back(other);
+      if (air && open_[tile * tiles + other] && !air_[other]) again.push_back(other);
     return again;
   }
   bool settled() const {
@@ -176,7 +177,7 @@ TEST(PreparationBook, RandomSchedulesAndDeathsEndInTheSettledFlood) {
       if (random() % 100 == 0) {  // all stop at once, and go on with what is known to be done
         for (Hand& hand : hands) {
           if (hand.part && hand.part->stage == Stage::flood && random() % 2 == 0)
-            floods.end(hand.part->part, hand.air, false);
+            floods.end(hand.part->part, hand.air);
           hand.part.reset();
         }
         in_hands.clear();
@@ -190,8 +191,7 @@ TEST(PreparationBook, RandomSchedulesAndDeathsEndInTheSettledFlood) {
       if (!hand.part) {
         hand.part = book.grant(worker);
         if (!hand.part) continue;
-        const auto [stage, part, after_death] = *hand.part;
-        ASSERT_EQ(after_death, stage == last && deaths[part] > 0);
+        const auto [stage, part] = *hand.part;
         ASSERT_TRUE(in_hands.insert({stage, part}).second) << "in two hands";
         ASSERT_GE(stage, last) << "stages in order";
         if (stage != last) std::fill(deaths.begin(), deaths.end(), 0);
@@ -200,12 +200,12 @@ TEST(PreparationBook, RandomSchedulesAndDeathsEndInTheSettledFlood) {
         if (stage == Stage::flood) hand.air = floods.begin(part);
         continue;
       }
-      const auto [stage, part, after_death] = *hand.part;
+      const auto [stage, part] = *hand.part;
       in_hands.erase({stage, part});
       hand.part.reset();
       const bool begun = random() % 8 != 0;
       if (random() % 4 == 0 && (!begun || deaths[part] < 2)) {
-        if (begun && stage == Stage::flood && random() % 2 == 0) floods.end(part, hand.air, false);
+        if (begun && stage == Stage::flood && random() % 2 == 0) floods.end(part, hand.air);
         if (begun) ++deaths[part];
         ASSERT_FALSE(book.lost(worker, begun));
         continue;
@@ -213,8 +213,7 @@ TEST(PreparationBook, RandomSchedulesAndDeathsEndInTheSettledFlood) {
       deaths[part] = 0;
       if (stage == Stage::import) book.set_size(Floods::tiles, blocks);
       repeats += !finished.insert({stage, part}).second;
-      book.done(worker,
-                stage == Stage::flood ? floods.end(part, hand.air, after_death) : std::vector<uint32_t>());
+      book.done(worker, stage == Stage::flood ? floods.end(part, hand.air) : std::vector<uint32_t>());
     }
     EXPECT_TRUE(book.complete()) << "seed " << seed;
     EXPECT_TRUE(floods.settled()) << "seed " << seed;

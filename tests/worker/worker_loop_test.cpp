@@ -64,12 +64,9 @@ class WorkerLoop : public testing::Test {
   }
   /// The answer to a part of the preparation.
   Frame prepare(Stage stage, uint32_t part) {
-    say(Verb::prepare, json{{"directory", directory_.string()},
-                            {"stage", name_of(stage)},
-                            {"part", part},
-                            {"threads", 2},
-                            {"after_death", false}}
-                           .dump());
+    say(Verb::prepare,
+        json{{"directory", directory_.string()}, {"stage", name_of(stage)}, {"part", part}, {"threads", 2}}
+            .dump());
     return hear();
   }
   /// The whole preparation, as a coordinator with one worker has it done. \return the first answer that is
