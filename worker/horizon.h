@@ -36,20 +36,18 @@ class Horizon {
   /// An edge of a polygon that is drawn, in face coordinates; all the edges of a body's drawn polygons, then
   /// end_body.
   void add_edge(glm::vec3 a, glm::vec3 b, float depth_limit_m) {
-    if (!clip(a, b)) return;
+    if (!clip(a, b, depth_limit_m)) return;
     if (a.x * b.z > b.x * a.z) std::swap(a, b);  // from left to right
     const float left = place(a), right = place(b);
-    const int first = std::max(static_cast<int>(std::ceil(left)), 0),
-              last = std::min(static_cast<int>(std::floor(right)), count);
+    // Edges of columns in (left, right]; both are more than -4, so that whole numbers are cut off downwards.
+    const int first = std::max(static_cast<int>(left + 4) - 3, 0),
+              last = std::min(static_cast<int>(right + 4) - 4, count);
     if (first > last) return;
-    // Straight lines are straight in the picture, and 1 / depth goes along them as height does.
-    const float width = right - left, scale = width > 0 ? 1 / width : 0;
-    const float slope_a = a.y / a.z, slope_b = b.y / b.z, near_a = 1 / a.z, near_b = 1 / b.z;
-    const float slope_step = (slope_b - slope_a) * scale, near_step = (near_b - near_a) * scale;
+    // Straight lines are straight in the picture.
+    const float slope_a = a.y / a.z, slope_b = b.y / b.z;
+    const float step = right > left ? (slope_b - slope_a) / (right - left) : 0;
     for (int c = first; c <= last; ++c) {
-      const float t = static_cast<float>(c) - left;
-      if ((near_a + t * near_step) * depth_limit_m < 1) continue;  // not drawn that far
-      const float slope = slope_a + t * slope_step;
+      const float slope = slope_a + (static_cast<float>(c) - left) * step;
       top_[c] = std::max(top_[c], slope), bottom_[c] = std::min(bottom_[c], slope);
     }
     first_ = std::min(first_, first), last_ = std::max(last_, last);
@@ -82,10 +80,12 @@ class Horizon {
     return {column(left), column(right)};
   }
 
-  /// The part of the edge in front of the eye and hardly beside the face. \return false for none.
-  static bool clip(glm::vec3& a, glm::vec3& b) {
+  /// The part of the edge in front of the eye, as far as it is drawn and hardly beside the face. \return
+  /// false for none.
+  static bool clip(glm::vec3& a, glm::vec3& b, float depth_limit_m) {
     constexpr float beside = 1.01f, nearest_m = 1e-3f;
-    if (!clip(a, b, a.z - nearest_m, b.z - nearest_m)) return false;
+    if (!clip(a, b, a.z - nearest_m, b.z - nearest_m) || !clip(a, b, depth_limit_m - a.z, depth_limit_m - b.z))
+      return false;
     a.z = std::max(a.z, nearest_m), b.z = std::max(b.z, nearest_m);  // of a long edge, rounded
     return clip(a, b, beside * a.z - a.x, beside * b.z - b.x) &&
            clip(a, b, beside * a.z + a.x, beside * b.z + b.x);

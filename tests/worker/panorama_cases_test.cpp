@@ -116,6 +116,54 @@ TEST_F(PanoramaCase, ABoxAroundTheEyeHidesNothing) {
   EXPECT_FALSE(hidden_behind({{{-3, -3, -3}, {3, 3, 5}}}, {{20, -2, 0}, {22, 2, 4}}, eye));
 }
 
+TEST_F(PanoramaCase, ASlantedBodyHidesWhatItsSilhouetteCovers) {
+  test::Faces gable{{{12, -5, -2}, {12, 5, -2}, {12, 5, 4}, {12, 0, 9}, {12, -5, 4}},
+                    {{10, 5, -2}, {10, -5, -2}, {10, -5, 4}, {10, 0, 9}, {10, 5, 4}}};
+  test::World world;
+  OccluderMesh mesh;
+  test::add_body(mesh, gable, {0, 0, 0});
+  world.rings.push_back({0.25, 100, mesh});
+  // At a depth of 20 the silhouette is at y = 10 up to 6.3 m, the ridge at 16.3 m above y = 0.
+  world.object({{20, -1, 0}, {21, 1, 14}});
+  world.object({{20, 6, 0}, {21, 8, 6}});
+  world.object({{20, -1, 0}, {21, 1, 18}});  // above the ridge
+  world.object({{20, 6, 0}, {21, 8, 14}});   // beside the ridge, in the bounds
+  EXPECT_EQ(world.occlusion({eye}).visible, (std::vector<uint32_t>{0, 0, 1, 1}));
+}
+
+TEST_F(PanoramaCase, AWallOfManyBodiesHidesAsOne) {
+  std::vector<Box> bricks;  // more than are drawn at a time
+  for (int y = 0; y < 170; ++y) {
+    for (int z = 0; z < 120; ++z) {
+      const auto at = [](int n) { return -5 + 0.0625f * static_cast<float>(n); };
+      bricks.push_back({{10, at(y), at(z) + 3}, {10.1f, at(y + 1), at(z + 1) + 3}});
+    }
+  }
+  EXPECT_TRUE(hidden_behind(bricks, {{20, -2, 0}, {22, 2, 4}}, eye));
+  bricks.erase(bricks.begin() + 76 * 120, bricks.begin() + 84 * 120);  // a slit of two pixels
+  EXPECT_FALSE(hidden_behind(bricks, {{20, -2, 0}, {22, 2, 4}}, eye));
+}
+
+TEST_F(PanoramaCase, APartTakesTheSmallestWindowThatHoldsIt) {
+  // A tower for small parts, a wall for large ones.
+  const std::vector<WindowOccluders> windows{
+      {{3, 3, 1}, {{0.25, 100, test::mesh_of({{{10, -5, -2}, {12, 5, 8}}})}}},
+      {{1, 1, 0.5}, {{0.25, 100, test::mesh_of({{{-12, -5, -2}, {-10, 5, 8}}})}}}};
+  const std::vector<Box> objects{{{20, -2, 0}, {22, 2, 4}}, {{-22, -2, 0}, {-20, 2, 4}}};
+  Panorama p(objects, {}, windows, 64);
+  const auto visible = [&](const std::vector<glm::dvec3>& parts) {
+    p.begin_cell();
+    for (const glm::dvec3& half : parts) p.add_part(eye, half);
+    return p.finish_cell().visible;
+  };
+  EXPECT_EQ(visible({{1, 1, 0.5}}), (std::vector<uint32_t>{1, 0}));
+  EXPECT_EQ(visible({{0.2, 0.7, 0}}), (std::vector<uint32_t>{1, 0}));
+  EXPECT_EQ(visible({{1, 1, 0.51}}), (std::vector<uint32_t>{0, 1}));
+  EXPECT_EQ(visible({{3, 1, 1}}), (std::vector<uint32_t>{0, 1}));
+  EXPECT_EQ(visible({{3.01, 1, 1}}), (std::vector<uint32_t>{1, 1})) << "no occluders hide for it";
+  EXPECT_EQ(visible({{1, 1, 0.5}, {3, 3, 1}}), (std::vector<uint32_t>{1, 1}));
+}
+
 TEST_F(PanoramaCase, AnEmptyCityIsAllVisible) {
   test::World world;
   EXPECT_TRUE(world.occlusion({eye}).visible.empty());

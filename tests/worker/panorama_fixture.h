@@ -8,6 +8,7 @@
 
 #include "gl/egl_context.h"
 #include "scene/error.h"
+#include "tests/worker/convex_bodies.h"
 #include "tests/worker/mesh.h"
 #include "worker/panorama.h"
 #include "worker/reference/occlusion_reference.h"
@@ -81,7 +82,21 @@ struct WorldOptions {
   int occluders = 60;
   int objects = 250;
   double floating = 0;  ///< share of the occluders that begin above the eye, where no skyline counts them
+  bool boxes = true;    ///< or convex bodies of many shapes
 };
+
+/// A body about as large as the box, standing as high; far away most are left, a little smaller. None where
+/// the eyes are.
+inline void add_random_body(Random& random, const Box& box, OccluderMesh& near, OccluderMesh& far) {
+  const Faces body = random_body(random, box.half_extent());
+  OccluderMesh alone;
+  add_body(alone, body, box.center());
+  const glm::vec3 middle = box.center() + glm::vec3(0, 0, box.lower.z - alone.bounds(0).lower.z);
+  const Box bounds = alone.bounds(0);
+  if (std::max({bounds.lower.x, -bounds.upper.x, bounds.lower.y, -bounds.upper.y}) < 2.5f) return;
+  add_body(near, body, middle);
+  if (random.chance(0.7)) add_body(far, body, middle, 0.8f);
+}
 
 /// A city around the origin: eyes within 2 m of it and 1.7 m up stand in nothing. Two rings: the second is
 /// what is left of the first when more is taken off.
@@ -98,6 +113,10 @@ inline World random_world(const WorldOptions& options) {
     Box box{c - half, c + half};
     box.lower.z = random.chance(options.floating) ? static_cast<float>(random.real(2.6, 4)) : -1.0f;
     box.upper.z = box.lower.z + static_cast<float>(random.real(2, 16));
+    if (!options.boxes) {
+      add_random_body(random, box, near.occluders, far.occluders);
+      continue;
+    }
     near.occluders.add_box(box);
     if (std::min(half.x, half.y) < 1.5f) continue;
     box.lower += glm::vec3(0.5f, 0.5f, 0), box.upper -= 0.5f;

@@ -55,14 +55,15 @@ Panorama::Panorama(const std::vector<OccluderRing>& rings, int resolution, const
 void Panorama::draw(int face, const std::vector<glm::dvec3>& polygon, double depth_limit_m) {
   const glm::dvec3 normal = area_vector(polygon);
   const double away = glm::dot(normal, polygon[0]);
-  if (away >= 0) return;  // turned away
+  const auto behind = [](const glm::dvec3& corner) { return corner.z <= 0; };
+  if (away >= 0 || std::all_of(polygon.begin(), polygon.end(), behind)) return;
   // The planes through the eye and each side. The polygon is closed: rounding leaves no crack to the next.
   std::vector<glm::dvec3> sides;
   for (size_t c = 0; c < polygon.size(); ++c)
     sides.push_back(glm::normalize(glm::cross(polygon[c], polygon[(c + 1) % polygon.size()])));
   // The pixels that it can touch: all, unless all of it is before the eye.
   glm::dvec2 lower(-1), upper(1);
-  if (std::all_of(polygon.begin(), polygon.end(), [](const glm::dvec3& c) { return c.z > 1e-6; })) {
+  if (std::none_of(polygon.begin(), polygon.end(), behind)) {
     std::swap(lower, upper);
     for (const glm::dvec3& c : polygon)
       lower = glm::min(lower, glm::dvec2(c) / c.z), upper = glm::max(upper, glm::dvec2(c) / c.z);
