@@ -7,6 +7,7 @@
 
 #include "farm/commands.h"
 #include "farm/lock.h"
+#include "farm/preparation_state.h"
 #include "farm/run_directory.h"
 #include "scene/error.h"
 
@@ -40,10 +41,12 @@ int run_status(const Options& options) {
   const uint64_t total = city ? city->cells : 0;
   const std::string holder = lock_holder(run.lock());
   const bool complete = city && journal.done == total && has_ended(run);
+  const std::optional<PreparationState> preparation = city ? std::nullopt : read_preparation_state(run);
   const char* const state = complete ? "complete" : !holder.empty() ? "running" : "stopped";
   if (options.json)
     std::cout << nlohmann::json{{"state", state},
                                 {"prepared", city.has_value()},
+                                {"preparing", preparation ? name_of(preparation->stage) : ""},
                                 {"cells", total},
                                 {"done", journal.done},
                                 {"all_visible", journal.all_visible},
@@ -59,7 +62,8 @@ int run_status(const Options& options) {
                              holder.empty() ? "" : " (" + holder + ")",
                              city ? fmt::format("cells {}/{} ({} %), {} all visible", journal.done, total,
                                                 total ? 100 * journal.done / total : 100, journal.all_visible)
-                                  : "not prepared yet");
+                             : preparation ? fmt::format("not prepared yet: {}", name_of(preparation->stage))
+                                           : "not prepared yet");
   if (!options.exit_code) return 0;
   return static_cast<int>(!complete                 ? ExitStatus::stopped_early
                           : journal.all_visible > 0 ? ExitStatus::all_visible

@@ -92,7 +92,8 @@ void Preparing::tick(double now_s) {
 std::string stages_text(const std::vector<StageTally>& stages) {
   std::string text;
   for (const StageTally& stage : stages)
-    text += fmt::format("{}{} {:.1f} s", text.empty() ? "" : ", ", name_of(stage.stage), stage.seconds);
+    text += fmt::format("{}{} {:.1f} s {:.0f} MB", text.empty() ? "" : ", ", name_of(stage.stage),
+                        stage.seconds, stage.peak_mb);
   return text;
 }
 

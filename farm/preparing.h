@@ -59,7 +59,7 @@ class Preparing {
   uint64_t saved_ = 0;  ///< of the stage's parts that were done
 };
 
-/// "import 2.1 s, flood 0.8 s, ...".
+/// "import 2.1 s 412 MB, flood 0.8 s 95 MB, ...": times, and the most memory of a worker.
 std::string stages_text(const std::vector<StageTally>& stages);
 
 }  // namespace veduta

@@ -63,6 +63,8 @@ TEST_F(BakePreparation, ThreeDeathsOverOnePartAreNamed) {
             std::string::npos)
       << output;
   EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 1) << output;
+  EXPECT_EQ(run(std::string(VEDUTA_PROGRAM) + " status --exit-code " + (directory / "run").string()), 75);
+  EXPECT_NE(output.find("stopped; not prepared yet: shrink"), std::string::npos) << output;
   EXPECT_EQ(run(bake()), 0) << output;
   EXPECT_NE(output.find("continuing the preparation: shrink"), std::string::npos) << output;
   EXPECT_TRUE(log("stage").back()["stage"] == "finish" && log("stage").size() == 5) << "nothing twice";
