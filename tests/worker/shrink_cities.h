@@ -60,7 +60,8 @@ class ShrinkCity {
     }
   }
 
-  /// An earth of n x n squares that rises by `slope` along x and has bumps, closed down to `bottom`.
+  /// An earth of n x n squares that rises by `slope` along x and has bumps, closed down to `bottom`: a whole
+  /// voxel, or the fill finds a way underneath.
   void earth(float x0, float x1, float bottom, float slope, float bumps, int n = 4) {
     mesh.object(Kind::terrain);
     const float step = (x1 - x0) / static_cast<float>(n);
@@ -259,7 +260,7 @@ class ShrinkCity {
 inline Scene one_plot(Plot plot, uint32_t seed) {
   ShrinkCity city(seed);
   Random random(seed + 1000);
-  city.earth(-10, 10, -0.5f, 0, 0, 1);
+  city.earth(-10, 10, -1, 0, 0, 1);
   city.plot(plot, {0, 0, 0}, seed % 3 == 0 ? 0 : random.real(0, 6.28));
   return city.mesh.scene;
 }

@@ -1,6 +1,7 @@
 #include "worker/reference/sealed_reference.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
@@ -27,24 +28,33 @@ Range clamped(Range range, int count) {
   return {std::max(range.first, 0), std::min(range.last, count - 1)};
 }
 
-/// Calls visit(i, j, k) for the seeds that a triangle may touch, each with its lower corner.
+/// Calls visit(i, j, k, lower corner) for the set seeds that a triangle may touch.
 template <typename Visit>
-void each_near(const GridFrame& f, const glm::dvec3* corner, Visit visit) {
-  const glm::dvec3 low = glm::min(glm::min(corner[0], corner[1]), corner[2]);
-  const glm::dvec3 high = glm::max(glm::max(corner[0], corner[1]), corner[2]);
-  for (int j = f.column_y(low.y - f.size_m); j <= f.column_y(high.y + f.size_m); ++j) {
-    for (int i = f.column_x(low.x - f.size_m); i <= f.column_x(high.x + f.size_m); ++i) {
-      for (int k = f.layer(low.z - f.size_m); k <= f.layer(high.z + f.size_m); ++k)
-        visit(i, j, k, glm::dvec3(f.x(i), f.y(j), f.z(k)));
+void each_near(const BitGrid& among, const glm::dvec3* corner, Visit visit) {
+  const GridFrame& f = among.frame();
+  const glm::dvec3 low = glm::min(glm::min(corner[0], corner[1]), corner[2]) - f.size_m;
+  const glm::dvec3 high = glm::max(glm::max(corner[0], corner[1]), corner[2]) + f.size_m;
+  const int k0 = f.layer(low.z), k1 = f.layer(high.z);
+  for (int j = f.column_y(low.y); j <= f.column_y(high.y); ++j) {
+    for (int i = f.column_x(low.x); i <= f.column_x(high.x); ++i) {
+      for (int w = k0 >> 6; w <= k1 >> 6; ++w) {
+        for (uint64_t bits = among.column(i, j)[w] & run_mask(w, k0, k1); bits != 0; bits &= bits - 1) {
+          const int k = 64 * w + std::countr_zero(bits);
+          visit(i, j, k, glm::dvec3(f.x(i), f.y(j), f.z(k)));
+        }
+      }
     }
   }
 }
 
 BitGrid touched_seeds(const std::vector<PlacedTriangle>& triangles, const GridFrame& frame) {
-  BitGrid touched(frame);
+  BitGrid touched(frame), all(frame);
+  for (int j = 0; j < frame.ny; ++j) {
+    for (int i = 0; i < frame.nx; ++i) all.set_run(i, j, 0, frame.nz - 1);
+  }
   for (const PlacedTriangle& t : triangles) {
     const glm::dvec3 corner[3] = {t.corner[0], t.corner[1], t.corner[2]};
-    each_near(frame, corner, [&](int i, int j, int k, const glm::dvec3& lower) {
+    each_near(all, corner, [&](int i, int j, int k, const glm::dvec3& lower) {
       if (triangle_touches_box(corner, lower, lower + frame.size_m, seed_margin * frame.size_m))
         touched.set(i, j, k);
     });
@@ -55,14 +65,13 @@ BitGrid touched_seeds(const std::vector<PlacedTriangle>& triangles, const GridFr
 BitGrid reached_of(const SealedBlock& block) {
   const GridFrame& coarse = block.region.frame();
   BitGrid reached(block.region.seed_frame());
-  const auto at = [&](int i, int j, int k) -> Brick {
-    if (block.region.occupied->get(i, j, k)) return block.region.reached.at(i, j, k);
-    return block.region.free.get(i, j, k) ? ~Brick{0} : 0;
-  };
   for (int j = 0; j < coarse.ny; ++j) {
     for (int i = 0; i < coarse.nx; ++i) {
       for (int k = 0; k < coarse.nz; ++k) {
-        const Brick brick = at(i, j, k);
+        const bool occupied = block.region.occupied->get(i, j, k);
+        const Brick brick = occupied                         ? block.region.reached.at(i, j, k)
+                            : block.region.free.get(i, j, k) ? ~Brick{0}
+                                                             : 0;
         for (int bit = 0; brick != 0 && bit < 64; ++bit) {
           if (brick >> bit & 1) reached.set(4 * i + bit % 4, 4 * j + bit / 4 % 4, 4 * k + bit / 16);
         }
@@ -72,18 +81,23 @@ BitGrid reached_of(const SealedBlock& block) {
   return reached;
 }
 
-/// The set seeds and their 26 neighbours.
-BitGrid with_neighbours(const BitGrid& grid) {
+/// The seeds that are not set and have one of their 26 neighbours set.
+BitGrid beside(const BitGrid& grid) {
   const GridFrame& f = grid.frame();
   BitGrid result(f);
   for (int j = 0; j < f.ny; ++j) {
     for (int i = 0; i < f.nx; ++i) {
-      for (int k = 0; k < f.nz; ++k) {
-        if (!grid.get(i, j, k)) continue;
+      for (int w = 0; w < grid.words(); ++w) {
+        uint64_t bits = 0;
         for (int b = std::max(j - 1, 0); b <= std::min(j + 1, f.ny - 1); ++b) {
-          for (int a = std::max(i - 1, 0); a <= std::min(i + 1, f.nx - 1); ++a)
-            result.set_run(a, b, std::max(k - 1, 0), std::min(k + 1, f.nz - 1));
+          for (int a = std::max(i - 1, 0); a <= std::min(i + 1, f.nx - 1); ++a) {
+            const uint64_t* c = grid.column(a, b);
+            const uint64_t below = w > 0 ? c[w - 1] >> 63 : 0,
+                           above = w + 1 < grid.words() ? c[w + 1] << 63 : 0;
+            bits |= c[w] | c[w] << 1 | below | c[w] >> 1 | above;
+          }
         }
+        result.column(i, j)[w] = bits & ~grid.column(i, j)[w] & run_mask(w, 0, f.nz - 1);
       }
     }
   }
@@ -144,12 +158,12 @@ GridFrame seeds_of(const Scene& scene, double seed_size_m) {
 
 SealedReference::SealedReference(const Scene& scene, double seed_size_m)
     : reached_(flood_fill(touched_seeds(all_triangles(scene), seeds_of(scene, seed_size_m)), 0)),
-      beside_(with_neighbours(reached_)) {
+      beside_(beside(reached_)) {
   find_exposed(all_triangles(scene));
 }
 
 SealedReference::SealedReference(const SealedBlock& block)
-    : reached_(reached_of(block)), beside_(with_neighbours(reached_)) {
+    : reached_(reached_of(block)), beside_(beside(reached_)) {
   find_exposed(block.triangles);
 }
 
@@ -159,9 +173,8 @@ void SealedReference::find_exposed(const std::vector<PlacedTriangle>& triangles)
     const auto number = static_cast<uint32_t>(corners_.size() / 3);
     corners_.insert(corners_.end(), t.corner.begin(), t.corner.end());
     const glm::dvec3* corner = &corners_[corners_.size() - 3];
-    each_near(f, corner, [&](int i, int j, int k, const glm::dvec3& lower) {
-      if (beside_.get(i, j, k) &&
-          triangle_touches_box(corner, lower, lower + f.size_m, seed_margin * f.size_m))
+    each_near(beside_, corner, [&](int i, int j, int k, const glm::dvec3& lower) {
+      if (triangle_touches_box(corner, lower, lower + f.size_m, seed_margin * f.size_m))
         exposed_.push_back({seed_number(f, i, j, k), number});
     });
   }

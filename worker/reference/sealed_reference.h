@@ -42,7 +42,7 @@ class SealedReference {
   bool clear(const glm::dvec3& from, const glm::dvec3& to) const;
 
   BitGrid reached_;
-  BitGrid beside_;  ///< seeds beside reached ones, these included
+  BitGrid beside_;  ///< seeds beside reached ones, without these
   /// Triangles (numbers in corners_, in threes) in the seeds beside reached ones, by seed.
   struct SeedTriangle {
     uint64_t seed;
