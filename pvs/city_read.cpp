@@ -67,14 +67,20 @@ void read_scene(const Input& input, City& city, ColumnDigests& digests) {
       input, column::part_end, scene.parts, [](Part& p, uint64_t t) { p.triangle_end = t; }, digests);
 }
 
+void read_forest(const Input& input, const column::ForestColumns& columns, OctreeForest& forest,
+                 ColumnDigests& digests) {
+  const auto lower = input.floats(columns.group, "lower", 3);
+  forest.lower = {lower[0], lower[1], lower[2]};
+  forest.leaf_size_m = input.floats(columns.group, "leaf_size_m", 1)[0];
+  forest.depth = input.number(columns.group, "depth");
+  forest.roots = read_rows<glm::ivec3>(input, columns.roots, digests);
+  forest.states = read_rows<uint16_t>(input, columns.states, digests);
+  forest.first_child = read_rows<uint32_t>(input, columns.first_child, digests);
+}
+
 void read_navigation(const Input& input, Navigation& navigation, ColumnDigests& digests) {
-  FreeOctree& octree = navigation.free;
-  const auto lower = input.floats("/navigation/octree", "lower", 3);
-  octree.lower = {lower[0], lower[1], lower[2]};
-  octree.leaf_size_m = input.floats("/navigation/octree", "leaf_size_m", 1)[0];
-  octree.depth = input.number("/navigation/octree", "depth");
-  octree.states = read_rows<uint16_t>(input, column::octree_states, digests);
-  octree.first_child = read_rows<uint32_t>(input, column::octree_first_child, digests);
+  read_forest(input, column::free_forest, navigation.free, digests);
+  read_forest(input, column::surface_forest, navigation.surfaces, digests);
   HeightField& ground = navigation.ground;
   const auto corner = input.floats("/navigation/ground", "lower", 2);
   ground.lower_x = corner[0];

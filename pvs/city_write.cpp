@@ -109,15 +109,23 @@ void write_scene_columns(Output& output, const City& city, ColumnDigests& digest
 
 namespace {
 
+void write_forest(Output& output, const column::ForestColumns& columns, const OctreeForest& forest,
+                  ColumnDigests& digests) {
+  static_assert(sizeof(glm::ivec3) == 12);
+  output.group(columns.group);
+  output.attribute(columns.group, "lower",
+                   std::vector<float>{forest.lower.x, forest.lower.y, forest.lower.z});
+  output.attribute(columns.group, "leaf_size_m", std::vector<float>{forest.leaf_size_m});
+  output.attribute(columns.group, "depth", forest.depth);
+  write_rows(output, columns.roots, forest.roots, digests);
+  write_rows(output, columns.states, forest.states, digests);
+  write_rows(output, columns.first_child, forest.first_child, digests);
+}
+
 void write_navigation(Output& output, const Navigation& navigation, ColumnDigests& digests) {
-  for (const char* group : {"/navigation", "/navigation/octree", "/navigation/ground"}) output.group(group);
-  const FreeOctree& octree = navigation.free;
-  output.attribute("/navigation/octree", "lower",
-                   std::vector<float>{octree.lower.x, octree.lower.y, octree.lower.z});
-  output.attribute("/navigation/octree", "leaf_size_m", std::vector<float>{octree.leaf_size_m});
-  output.attribute("/navigation/octree", "depth", octree.depth);
-  write_rows(output, column::octree_states, octree.states, digests);
-  write_rows(output, column::octree_first_child, octree.first_child, digests);
+  for (const char* group : {"/navigation", "/navigation/ground"}) output.group(group);
+  write_forest(output, column::free_forest, navigation.free, digests);
+  write_forest(output, column::surface_forest, navigation.surfaces, digests);
   const HeightField& ground = navigation.ground;
   output.attribute("/navigation/ground", "lower", std::vector<float>{ground.lower_x, ground.lower_y});
   output.attribute("/navigation/ground", "step_m", std::vector<float>{ground.step_m});

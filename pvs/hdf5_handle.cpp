@@ -33,6 +33,7 @@ size_t element_bytes(Element element, size_t text_bytes) {
       return 2;
     case Element::f32:
     case Element::u32:
+    case Element::i32:
       return 4;
     case Element::u64:
       return 8;
@@ -54,6 +55,8 @@ Handle element_type(Element element, size_t text_bytes) {
       return {H5Tcopy(H5T_STD_U16LE), H5Tclose};
     case Element::u32:
       return {H5Tcopy(H5T_STD_U32LE), H5Tclose};
+    case Element::i32:
+      return {H5Tcopy(H5T_STD_I32LE), H5Tclose};
     case Element::u64:
       return {H5Tcopy(H5T_STD_U64LE), H5Tclose};
     case Element::text:

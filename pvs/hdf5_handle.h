@@ -44,7 +44,7 @@ class Handle {
 void prepare_library();
 
 /// What a stored number is. Little-endian, in the file and (asserted) in memory.
-enum class Element { f32, u8, i8, u16, u32, u64, text };
+enum class Element { f32, u8, i8, u16, u32, i32, u64, text };
 
 /// Bytes of one element; text_bytes for text.
 size_t element_bytes(Element element, size_t text_bytes);

@@ -1,4 +1,5 @@
-// Where a viewer can be: an octree of navigable space and a terrain height field (DESIGN §3, thesis §3.1.4).
+// Where a viewer can be, and what is in the way: forests of octrees and a height field of the ground (DESIGN
+// §3, thesis §3.1.4 and §3.2).
 #pragma once
 
 #include <cstdint>
@@ -7,21 +8,6 @@
 #include <vector>
 
 namespace veduta {
-
-/// A linear octree over a cube. Each inner node has eight children, numbered x + 2y + 4z; the state of child
-/// k is bits 2k, 2k+1 of `states`: 0 not navigable, 1 navigable, 2 mixed. The mixed children of a node are
-/// consecutive, in order, from `first_child`. Node 0 is the root; a tree without nodes has no navigable
-/// space.
-struct FreeOctree {
-  glm::vec3 lower{0};                 ///< corner of the cube, m, relative to the scene origin
-  float leaf_size_m = 1;              ///< edge of the smallest leaf (the seed size)
-  uint32_t depth = 0;                 ///< the cube's edge is leaf_size_m * 2^depth
-  std::vector<uint16_t> states;       ///< [M]
-  std::vector<uint32_t> first_child;  ///< [M]
-
-  /// Is the point in navigable space? Constant time: `depth` steps.
-  bool contains(const glm::vec3& point) const;
-};
 
 /// Sets of voxels as a forest of octrees (thesis §3.1.4, §3.2). Its roots are cubes of 2^depth voxels on one
 /// lattice, whatever the bounds of the city and however it was cut for the work; only roots with something in
@@ -36,6 +22,7 @@ struct OctreeForest {
   std::vector<uint16_t> states;       ///< [M], M >= R
   std::vector<uint32_t> first_child;  ///< [M]
 
+  bool operator==(const OctreeForest&) const = default;
   float root_edge_m() const { return leaf_size_m * static_cast<float>(uint32_t{1} << depth); }
   /// The node of a root, nothing where no root is listed.
   std::optional<uint32_t> find_root(const glm::ivec3& number) const;
@@ -56,7 +43,8 @@ struct HeightField {
 };
 
 struct Navigation {
-  FreeOctree free;
+  OctreeForest free;      ///< where a viewer can be: the free voxels that lie in a view-cell
+  OctreeForest surfaces;  ///< the voxels that a triangle passes: what a viewer runs into, or points at
   HeightField ground;
 };
 

@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cmath>
+#include <tuple>
 
 #include "pvs/pvs_layout.h"
 #include "scene/error.h"
@@ -112,25 +113,36 @@ Defect check_objects(const City& city) {
   return {};
 }
 
-Defect check_octree(const FreeOctree& octree) {
-  const char* place = "/navigation/octree/states";
-  if (octree.first_child.size() != octree.states.size())
-    return "/navigation/octree/first_child: not one for each node";
-  if (!finite(octree.lower) || !std::isfinite(octree.leaf_size_m) || octree.leaf_size_m <= 0 ||
-      octree.depth > octree_depth_limit)
-    return "/navigation/octree: its cube is not a cube";
+Defect check_forest(const OctreeForest& forest, const column::ForestColumns& columns) {
+  const size_t roots = forest.roots.size(), nodes = forest.states.size();
+  if (forest.first_child.size() != nodes)
+    return fmt::format("{}: not one for each node", columns.first_child.path);
+  if (!finite(forest.lower) || !std::isfinite(forest.leaf_size_m) || forest.leaf_size_m <= 0 ||
+      forest.depth < 1 || forest.depth > octree_depth_limit)
+    return fmt::format("{}: its roots are not cubes", columns.group);
+  if (roots > nodes) return fmt::format("{}: more than there are nodes", columns.roots.path);
+  const auto key = [](const glm::ivec3& r) { return std::tuple(r.z, r.y, r.x); };
+  for (size_t r = 0; r < roots; ++r) {
+    const glm::ivec3& root = forest.roots[r];
+    for (int axis = 0; axis < 3; ++axis)
+      if (root[axis] < -root_number_limit || root[axis] > root_number_limit)
+        return fmt::format("{}: root {} is too far away", columns.roots.path, r);
+    if (r > 0 && key(root) <= key(forest.roots[r - 1]))
+      return fmt::format("{}: root {} is not in ascending order", columns.roots.path, r);
+  }
   // Children come after their node, so one pass knows each node's level, and no walk can go in a circle.
-  std::vector<uint8_t> level(octree.states.size(), 0);
-  for (size_t i = 0; i < octree.states.size(); ++i) {
-    const unsigned state = octree.states[i];
+  std::vector<uint8_t> level(nodes, 0);
+  for (size_t i = 0; i < nodes; ++i) {
+    const unsigned state = forest.states[i];
     if ((state & (state >> 1) & 0x5555u) != 0)
-      return fmt::format("{}: node {}: a child in no known state", place, i);
+      return fmt::format("{}: node {}: a child in no known state", columns.states.path, i);
     const uint64_t mixed = static_cast<uint64_t>(std::popcount((state >> 1) & 0x5555u));
-    if (level[i] >= octree.depth) return fmt::format("{}: node {} is deeper than the tree", place, i);
+    if (level[i] >= forest.depth)
+      return fmt::format("{}: node {} is deeper than the tree", columns.states.path, i);
     if (mixed == 0) continue;
-    const uint64_t child = octree.first_child[i];
-    if (child <= i || child + mixed > octree.states.size())
-      return fmt::format("/navigation/octree/first_child: node {}: its children are not behind it", i);
+    const uint64_t child = forest.first_child[i];
+    if (child <= i || child < roots || child + mixed > nodes)
+      return fmt::format("{}: node {}: its children are not behind it", columns.first_child.path, i);
     for (uint64_t k = child; k < child + mixed; ++k)
       level[k] = std::max(level[k], static_cast<uint8_t>(level[i] + 1));
   }
@@ -173,7 +185,8 @@ Defect find_scene_defect(const City& city) {
 
 Defect find_place_defect(const City& city) {
   if (Defect defect = check_cells(city.cells)) return defect;
-  if (Defect defect = check_octree(city.navigation.free)) return defect;
+  if (Defect defect = check_forest(city.navigation.free, column::free_forest)) return defect;
+  if (Defect defect = check_forest(city.navigation.surfaces, column::surface_forest)) return defect;
   return check_ground(city.navigation.ground);
 }
 

@@ -13,10 +13,11 @@ std::string content_digest(const City& city, bool conservative, const ColumnDige
   }
   digest.update_text(city.scene.crs);
   digest.update(city.scene.origin.data(), sizeof city.scene.origin);
-  const FreeOctree& octree = city.navigation.free;
-  digest.update(&octree.lower, sizeof octree.lower);
-  digest.update(&octree.leaf_size_m, sizeof octree.leaf_size_m);
-  digest.update(&octree.depth, sizeof octree.depth);
+  for (const OctreeForest* forest : {&city.navigation.free, &city.navigation.surfaces}) {
+    digest.update(&forest->lower, sizeof forest->lower);
+    digest.update(&forest->leaf_size_m, sizeof forest->leaf_size_m);
+    digest.update(&forest->depth, sizeof forest->depth);
+  }
   const HeightField& ground = city.navigation.ground;
   digest.update(&ground.lower_x, sizeof ground.lower_x);
   digest.update(&ground.lower_y, sizeof ground.lower_y);

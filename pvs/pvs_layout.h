@@ -11,11 +11,12 @@
 
 namespace veduta {
 
-inline constexpr uint32_t pvs_version = 1;
+inline constexpr uint32_t pvs_version = 2;  ///< 1 had one octree of free space
 inline constexpr const char* pvs_format = "veduta-pvs";
 inline constexpr const char* city_format = "veduta-city";  ///< a prepared city: no rows
 inline constexpr size_t chunk_bytes = 256 * 1024;
-inline constexpr uint32_t octree_depth_limit = 32;
+inline constexpr uint32_t octree_depth_limit = 20;
+inline constexpr int root_number_limit = 1 << 30;
 inline constexpr uint64_t attribute_bytes_limit = 16u << 20;
 
 /// One dataset. `columns` is the extent after the first: 1 for a vector; 0 stands for what the data says.
@@ -59,11 +60,21 @@ inline constexpr Column part_end{"/scene/parts/triangle_end", Element::u64, 1,
 inline constexpr Column cell_bounds{
     "/cells/bounds", Element::f32, 6,
     "[C,6] lower x, y, z and upper x, y, z of each view-cell, a closed box, m"};
-inline constexpr Column octree_states{
-    "/navigation/octree/states", Element::u16, 1,
-    "[M] bits 2k, 2k+1: child k = x+2y+4z is 0 not navigable, 1 navigable, 2 mixed"};
-inline constexpr Column octree_first_child{"/navigation/octree/first_child", Element::u32, 1,
-                                           "[M] the first mixed child; the others follow it"};
+inline constexpr Column free_roots{"/navigation/free/roots", Element::i32, 3,
+                                   "[R,3] number of each root: its lower corner is lower + number * "
+                                   "leaf_size_m * 2^depth; root r is node r. "
+                                   "Navigable: free voxels in view-cells"};
+inline constexpr Column free_states{"/navigation/free/states", Element::u16, 1,
+                                    "[M] bits 2k, 2k+1: of child k = x+2y+4z is 0 nothing, 1 all, 2 a part "
+                                    "in the set"};
+inline constexpr Column free_first_child{"/navigation/free/first_child", Element::u32, 1,
+                                         "[M] the first child of which a part is; the others follow it"};
+inline constexpr Column surface_roots{"/navigation/surfaces/roots", Element::i32, 3,
+                                      "[R,3] as those of /navigation/free; voxels that a triangle passes"};
+inline constexpr Column surface_states{"/navigation/surfaces/states", Element::u16, 1,
+                                       "[M] as those of /navigation/free"};
+inline constexpr Column surface_first_child{"/navigation/surfaces/first_child", Element::u32, 1,
+                                            "[M] as those of /navigation/free"};
 inline constexpr Column ground_height{
     "/navigation/ground/height", Element::f32, 0,
     "[ny,nx] highest ground in each square of edge step_m, m; NaN where there is none"};
@@ -81,10 +92,22 @@ inline constexpr Column pvs_index{"/pvs/index", Element::i8, 3,
                                   "x < 0 and its last x-slice >= -x+1, or the same for y"};
 
 inline constexpr const Column* all[] = {
-    &vertices,      &triangles,    &material,      &triangle_slice,     &object_name,   &object_kind,
-    &object_bounds, &object_begin, &object_slices, &part_name,          &part_object,   &part_begin,
-    &part_end,      &cell_bounds,  &octree_states, &octree_first_child, &ground_height, &cell_row,
-    &cell_bake_us,  &cell_status,  &pvs_begin,     &pvs_object,         &pvs_index};
+    &vertices,       &triangles,           &material,      &triangle_slice, &object_name,      &object_kind,
+    &object_bounds,  &object_begin,        &object_slices, &part_name,      &part_object,      &part_begin,
+    &part_end,       &cell_bounds,         &free_roots,    &free_states,    &free_first_child, &surface_roots,
+    &surface_states, &surface_first_child, &ground_height, &cell_row,       &cell_bake_us,     &cell_status,
+    &pvs_begin,      &pvs_object,          &pvs_index};
+
+/// A forest of octrees in the file: its group, which has its lattice as attributes, and its datasets.
+struct ForestColumns {
+  const char* group;
+  const Column& roots;
+  const Column& states;
+  const Column& first_child;
+};
+inline constexpr ForestColumns free_forest{"/navigation/free", free_roots, free_states, free_first_child};
+inline constexpr ForestColumns surface_forest{"/navigation/surfaces", surface_roots, surface_states,
+                                              surface_first_child};
 }  // namespace column
 
 /// By path: the digest of each dataset, 32 hex digits.

@@ -34,7 +34,7 @@ glm::vec3 halton(uint32_t index, const glm::vec3& shift) {
 
 }  // namespace
 
-bool viewer_can_be(const glm::vec3& eye, const FreeOctree& free, const RayScene& rays) {
+bool viewer_can_be(const glm::vec3& eye, const OctreeForest& free, const RayScene& rays) {
   if (free.contains(eye)) return true;
   const float leaf = free.leaf_size_m;
   const glm::vec3 own = free.lower + (glm::floor((eye - free.lower) / leaf) + 0.5f) * leaf;
@@ -46,8 +46,8 @@ bool viewer_can_be(const glm::vec3& eye, const FreeOctree& free, const RayScene&
   return false;
 }
 
-std::vector<glm::vec3> eye_points(const Box& cell, size_t count, const FreeOctree& free, const RayScene& rays,
-                                  Random random) {
+std::vector<glm::vec3> eye_points(const Box& cell, size_t count, const OctreeForest& free,
+                                  const RayScene& rays, Random random) {
   std::vector<glm::vec3> eyes;
   const auto keep = [&](const glm::vec3& eye) {
     if (eyes.size() < count && viewer_can_be(eye, free, rays)) eyes.push_back(eye);

@@ -14,12 +14,12 @@ namespace veduta {
 /// Can a viewer's eye be here? Yes in navigable space; and within one leaf of the octree's size of the centre
 /// of a navigable leaf, when no triangle lies in between (the octree leaves out whole leaves that a surface
 /// passes through).
-bool viewer_can_be(const glm::vec3& eye, const FreeOctree& free, const RayScene& rays);
+bool viewer_can_be(const glm::vec3& eye, const OctreeForest& free, const RayScene& rays);
 
 /// Up to `count` eye points of the cell: its 8 corners, the midpoints of its 12 edges and 6 faces, then
 /// points of a shifted Halton sequence inside; those where a viewer can't be are replaced by more of the
 /// sequence, for a bounded number of tries (64 a point). Empty when no try succeeded.
-std::vector<glm::vec3> eye_points(const Box& cell, size_t count, const FreeOctree& free, const RayScene& rays,
-                                  Random random);
+std::vector<glm::vec3> eye_points(const Box& cell, size_t count, const OctreeForest& free,
+                                  const RayScene& rays, Random random);
 
 }  // namespace veduta

@@ -25,7 +25,7 @@ float yaw_of(size_t direction) {
 }
 
 // How far one can go in each direction, m, without leaving the navigable space.
-std::array<float, directions> free_lengths(const FreeOctree& free, const glm::vec3& eye) {
+std::array<float, directions> free_lengths(const OctreeForest& free, const glm::vec3& eye) {
   std::array<float, directions> length{};
   const float step_m = std::max(free.leaf_size_m, longest_view_m / 256);
   for (size_t d = 0; d < directions; ++d) {

@@ -74,7 +74,7 @@ City tiny_city(uint32_t cells) {
     const auto x = static_cast<float>(i);
     city.cells.push_back({{x, 0, 0}, {x + 1, 1, 1}});
   }
-  city.navigation.free = {{0, 0, 0}, 1, 1, {0x5555}, {0}};
+  city.navigation.free = {{0, 0, 0}, 1, 1, {{0, 0, 0}}, {0x5555}, {0}};
   city.navigation.ground = {0, 0, 1, 1, 1, {0}};
   return city;
 }

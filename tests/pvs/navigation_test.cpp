@@ -10,69 +10,86 @@
 namespace veduta {
 namespace {
 
-/// Builds the octree of a grid of 2^depth leaves along each edge, obviously: a node is mixed unless its
-/// leaves agree.
-FreeOctree octree_of(uint32_t depth, const std::function<bool(uint32_t, uint32_t, uint32_t)>& free) {
-  FreeOctree tree;
-  tree.depth = depth;
+/// Adds a root, obviously: a node is mixed unless its leaves agree. Its node must be the next root's.
+void add_root(OctreeForest& forest, const glm::ivec3& number,
+              const std::function<bool(uint32_t, uint32_t, uint32_t)>& set) {
   struct Node {
-    uint32_t x, y, z, edge;
+    uint32_t x, y, z, edge, index;
   };
   const auto state = [&](const Node& n) {
     uint32_t count = 0;
     for (uint32_t z = 0; z < n.edge; ++z)
       for (uint32_t y = 0; y < n.edge; ++y)
-        for (uint32_t x = 0; x < n.edge; ++x) count += free(n.x + x, n.y + y, n.z + z);
+        for (uint32_t x = 0; x < n.edge; ++x) count += set(n.x + x, n.y + y, n.z + z);
     return count == 0 ? 0u : count == n.edge * n.edge * n.edge ? 1u : 2u;
   };
-  std::vector<Node> nodes{{0, 0, 0, 1u << depth}};
+  const auto root = static_cast<uint32_t>(forest.roots.size());
+  forest.roots.push_back(number);
+  std::vector<Node> nodes{{0, 0, 0, 1u << forest.depth, root}};
   for (size_t i = 0; i < nodes.size(); ++i) {
-    tree.first_child.push_back(static_cast<uint32_t>(nodes.size()));
-    unsigned states = 0;
     const Node node = nodes[i];
     const uint32_t half = node.edge / 2;
+    forest.first_child[node.index] = static_cast<uint32_t>(forest.states.size());
     for (unsigned k = 0; k < 8; ++k) {
-      const Node child{node.x + (k & 1) * half, node.y + (k >> 1 & 1) * half, node.z + (k >> 2) * half, half};
+      Node child{node.x + (k & 1) * half, node.y + (k >> 1 & 1) * half, node.z + (k >> 2) * half, half, 0};
       const unsigned s = state(child);
-      states |= s << (2 * k);
-      if (s == 2) nodes.push_back(child);
+      forest.states[node.index] |= static_cast<uint16_t>(s << (2 * k));
+      if (s != 2) continue;
+      child.index = static_cast<uint32_t>(forest.states.size());
+      nodes.push_back(child);
+      forest.states.push_back(0), forest.first_child.push_back(0);
     }
-    tree.states.push_back(static_cast<uint16_t>(states));
   }
-  return tree;
 }
 
-TEST(FreeOctree, AgreesWithTheGridItWasMadeOf) {
+OctreeForest with_space_for(uint32_t roots, uint32_t depth) {
+  OctreeForest forest;
+  forest.depth = depth;
+  forest.states.resize(roots), forest.first_child.resize(roots);
+  return forest;
+}
+
+TEST(OctreeForest, AgreesWithTheGridsItWasMadeOf) {
   std::mt19937 random(7);
   constexpr uint32_t n = 8;
+  const std::vector<glm::ivec3> numbers{{-1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (const double share : {0.02, 0.5, 0.98}) {
-    std::vector<bool> grid(n * n * n);
-    for (size_t i = 0; i < grid.size(); ++i) grid[i] = std::bernoulli_distribution(share)(random);
-    const auto at = [&](uint32_t x, uint32_t y, uint32_t z) { return grid[x + n * (y + n * z)]; };
-    FreeOctree tree = octree_of(3, at);
-    tree.lower = {-3, 5, 100};
-    tree.leaf_size_m = 0.25f;
-    for (uint32_t z = 0; z < n; ++z)
-      for (uint32_t y = 0; y < n; ++y)
-        for (uint32_t x = 0; x < n; ++x) {
-          const glm::vec3 middle = tree.lower + tree.leaf_size_m * (glm::vec3(x, y, z) + 0.5f);
-          ASSERT_EQ(tree.contains(middle), at(x, y, z)) << x << ' ' << y << ' ' << z;
-        }
+    OctreeForest forest = with_space_for(4, 3);
+    forest.lower = {-3, 5, 100};
+    forest.leaf_size_m = 0.25f;
+    std::vector<std::vector<bool>> grids;
+    for (const glm::ivec3& number : numbers) {
+      std::vector<bool>& grid = grids.emplace_back(n * n * n);
+      for (size_t i = 0; i < grid.size(); ++i) grid[i] = std::bernoulli_distribution(share)(random);
+      add_root(forest, number, [&](uint32_t x, uint32_t y, uint32_t z) { return grid[x + n * (y + n * z)]; });
+    }
+    for (size_t r = 0; r < numbers.size(); ++r)
+      for (uint32_t z = 0; z < n; ++z)
+        for (uint32_t y = 0; y < n; ++y)
+          for (uint32_t x = 0; x < n; ++x) {
+            const glm::vec3 leaf = glm::vec3(numbers[r] * int{n}) + glm::vec3(x, y, z);
+            const bool expected = grids[r][x + n * (y + n * z)];
+            ASSERT_EQ(forest.contains(forest.lower + 0.25f * (leaf + 0.5f)), expected)
+                << r << ' ' << x << ' ' << y << ' ' << z;
+            ASSERT_EQ(forest.contains(forest.lower + 0.25f * leaf), expected) << "its lower corner";
+          }
   }
 }
 
-TEST(FreeOctree, NothingOutsideNorInAnEmptyTree) {
-  EXPECT_FALSE(FreeOctree{}.contains({0, 0, 0}));
-  FreeOctree tree;
-  tree.depth = 1;
-  tree.states = {0x5555};
-  tree.first_child = {0};
-  EXPECT_TRUE(tree.contains({0, 0, 0}));
-  EXPECT_TRUE(tree.contains({2, 2, 2}));  // closed: the far corner belongs to it
-  EXPECT_FALSE(tree.contains({2.01f, 1, 1}));
-  EXPECT_FALSE(tree.contains({1, -0.01f, 1}));
-  EXPECT_FALSE(tree.contains({NAN, 1, 1}));
-  EXPECT_FALSE(tree.contains({1, 1, std::numeric_limits<float>::infinity()}));
+TEST(OctreeForest, NothingOutsideNorInAnEmptyForest) {
+  EXPECT_FALSE(OctreeForest{}.contains({0, 0, 0}));
+  const OctreeForest forest{{0, 0, 0}, 1, 1, {{0, 0, 0}, {2, 0, 0}}, {0x5555, 0x5555}, {0, 0}};
+  EXPECT_TRUE(forest.contains({0, 0, 0}));
+  EXPECT_TRUE(forest.contains({1.99f, 1.99f, 1.99f}));
+  EXPECT_FALSE(
+      forest.contains({2, 1, 1}));  // half-open: what lies between two voxels belongs to the upper one
+  EXPECT_TRUE(forest.contains({4, 1, 1}));
+  EXPECT_FALSE(forest.contains({1, -0.01f, 1}));
+  EXPECT_FALSE(forest.contains({NAN, 1, 1}));
+  EXPECT_FALSE(forest.contains({1, 1, std::numeric_limits<float>::infinity()}));
+  EXPECT_FALSE(forest.contains({1e30f, 1, 1}));
+  EXPECT_EQ(forest.find_root({2, 0, 0}), 1u);
+  EXPECT_EQ(forest.find_root({1, 0, 0}), std::nullopt);
 }
 
 TEST(HeightField, GivesTheSampleOfTheSquare) {

@@ -57,6 +57,19 @@ TEST(PvsCheck, WriterRefusesCitiesThatItsReaderWould) {
       [](City& c) { c.navigation.free.first_child[0] = 2; },
       [](City& c) { c.navigation.free.depth = 1; },
       [](City& c) { c.navigation.free.states[1] = 3; },
+      [](City& c) {
+        c.navigation.free.roots.push_back({1, 0, 0}), c.navigation.free.first_child[0] = 1;
+      },
+      [](City& c) { c.navigation.surfaces.depth = 0; },
+      [](City& c) { c.navigation.surfaces.depth = 21; },
+      [](City& c) { std::swap(c.navigation.surfaces.roots[0], c.navigation.surfaces.roots[1]); },
+      [](City& c) { c.navigation.surfaces.roots[1] = c.navigation.surfaces.roots[0]; },
+      [](City& c) { c.navigation.surfaces.roots[1].z = INT32_MAX; },
+      [](City& c) {
+        c.navigation.surfaces.roots.resize(4, {0, 0, 9});
+      },
+      [](City& c) { c.navigation.surfaces.first_child[1] = 1; },
+      [](City& c) { c.navigation.surfaces.leaf_size_m = NAN; },
       [](City& c) { c.navigation.ground.nx = 4; },
       [](City& c) { c.scene.objects[0].name = std::string("a\0b", 3); },
   };

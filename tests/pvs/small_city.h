@@ -73,9 +73,12 @@ inline City small_city(uint32_t objects = 5, uint32_t cells = 7) {
   city.navigation.free.lower = {-1, -2, -3};
   city.navigation.free.leaf_size_m = 0.5f;
   city.navigation.free.depth = 3;
+  city.navigation.free.roots = {{0, 0, 0}};
   city.navigation.free.states = {
       0x9, 0x5};  // root: child 0 navigable, child 1 mixed; there, children 0 and 1 navigable
   city.navigation.free.first_child = {1, 0};
+  city.navigation.surfaces = {{-1, -2, -3},        0.5f,     2, {{7, 0, -2}, {-1, 3, 0}},
+                              {0x1, 0x81, 0x5550}, {0, 2, 0}};
   city.navigation.ground = {-1.5f, 2.5f, 2.0f, 3, 2, {0, 1, 2, 3, 4, NAN}};
   return city;
 }

@@ -12,7 +12,7 @@ using toy::Street;
 struct Place {
   Scene scene = Street::scene();
   RayScene rays{scene};
-  FreeOctree free = toy::free_around(scene, {-64, -64, -1.5f}, 1, 7);
+  OctreeForest free = toy::free_around(scene, {-64, -64, -1.5f}, 1, 7);
 };
 
 TEST(Eyes, StartWithCornersEdgesAndFacesAndFillTheInside) {

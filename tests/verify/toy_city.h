@@ -35,10 +35,11 @@ inline bool touch(const Box& a, const Box& b) {
 
 /// Everything is navigable but the leaves that a box of the scene touches. Not contracted: every node is
 /// split.
-inline FreeOctree free_around(const Scene& scene, const glm::vec3& lower, float leaf_size_m, uint32_t depth) {
+inline OctreeForest free_around(const Scene& scene, const glm::vec3& lower, float leaf_size_m,
+                                uint32_t depth) {
   std::vector<Box> solid;
   for (size_t o = 0; o < scene.objects.size(); ++o) solid.push_back(scene.bounds(o));
-  FreeOctree tree{lower, leaf_size_m, depth, {}, {}};
+  OctreeForest tree{lower, leaf_size_m, depth, {{0, 0, 0}}, {}, {}};
   std::vector<glm::uvec3> nodes{{0, 0, 0}};
   for (uint32_t level = 0; level < depth; ++level) {
     const bool last = level + 1 == depth;

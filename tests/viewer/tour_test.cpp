@@ -34,7 +34,7 @@ TEST(Tour, LooksAlongOpenSpace) {
   PvsFile file = toy::make_street().file;
   for (PvsEntry& entry : file.entries) entry.object = toy::Street::ground;  // no building decides
   // Free space: the half of a 64 m cube with y >= 0; the cell lies at its edge.
-  file.city.navigation.free = {{-32, -32, -30}, 32, 1, {0b0101'0000'0101'0000}, {0}};
+  file.city.navigation.free = {{-32, -32, -30}, 32, 1, {{0, 0, 0}}, {0b0101'0000'0101'0000}, {0}};
   ASSERT_TRUE(file.city.navigation.free.contains({0, 20, 1.7f}));
   ASSERT_FALSE(file.city.navigation.free.contains({0, -20, 1.7f}));
   const std::vector<Pose> tour = make_tour(file, 1);
