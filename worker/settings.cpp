@@ -64,6 +64,11 @@ Settings parse_settings(const std::string& text, const std::string& name, const 
   }
   if (!seen.count("scene.model"))
     throw Error(ExitStatus::usage, name + ": 'scene.model' is missing; name a model file under [scene]");
+  if (settings.navigation.fly_lowest_m >= settings.navigation.fly_highest_m)
+    throw Error(ExitStatus::usage,
+                fmt::format("{}: 'navigation.fly_lowest' is {}; it must be below "
+                            "'navigation.fly_highest', which is {}",
+                            name, settings.navigation.fly_lowest_m, settings.navigation.fly_highest_m));
   return settings;
 }
 

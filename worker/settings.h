@@ -3,7 +3,6 @@
 
 #include <array>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,15 +23,18 @@ struct Settings {
     double floor_height_m = 3.0;
   } scene;
   struct {
-    std::string mode = "walk";   ///< "walk": cells at eye height above ground or terrain
+    std::string mode = "walk";   ///< "walk": cells at eye height above ground; "fly": over a range of heights
     double seed_size_m = 0.125;  ///< a gap of two seeds stays open, a narrower one may close; a voxel is four
-    double eye_height_m = 1.7;   ///< above ground, +- 0.25 m
+    double eye_height_m = 1.7;   ///< walk: above ground, +- 0.25 m
+    double fly_lowest_m = 0, fly_highest_m = 60;  ///< fly: above ground
   } navigation;
   struct {
     double size_m = 10.0;   ///< horizontal edge of a view-cell
     double height_m = 1.0;  ///< vertical edge of a view-cell; cells stack where the ground varies more
-    std::optional<std::array<double, 4>>
-        region;  ///< x0, y0, x1, y1 in the scene's CRS: where cells are made; none: everywhere
+    int largest = 4;        ///< fly: in open space, cells are up to this many times as large; a power of two
+    /// Corners of a polygon in the scene's CRS: cells are made where their centre lies in it (even-odd);
+    /// none: everywhere.
+    std::vector<std::array<double, 2>> region;
   } cells;
   struct {
     int max = 8;  ///< most slices per axis of an object

@@ -23,21 +23,6 @@ std::string toml_text(const std::string& text) {
   return out + '"';
 }
 
-/// The shortest text that reads back as the same double, and reads as a float in TOML.
-std::string number(double value) {
-  std::string text = fmt::format("{}", value);
-  if (text.find_first_of(".e") == std::string::npos) text += ".0";
-  return text;
-}
-
-double finite(const toml::node& node, const Place& place) {
-  const bool is_number = node.is_floating_point() || node.is_integer();
-  const double value = is_number ? node.value<double>().value_or(NAN) : NAN;
-  if (!is_number) place.refuse(node, fmt::format("'{}' must be a number", place.key));
-  if (!std::isfinite(value)) place.refuse(node, fmt::format("'{}' must be a finite number", place.key));
-  return value;
-}
-
 std::string text_of(const toml::node& node, const Place& place, const char* what) {
   const auto value = node.is_string() ? node.value<std::string>() : std::nullopt;
   if (!value) place.refuse(node, fmt::format("'{}' must be {}", place.key, what));
@@ -56,14 +41,14 @@ Key real(std::string path, double low, double high, std::string unit, std::strin
           range,
           std::move(help),
           [=](Settings& s, const toml::node& node, const Place& place) {
-            const double value = finite(node, place);
+            const double value = finite_number(node, place);
             if (value < low || value > high)
               place.refuse(node, fmt::format("'{}' is {}; it must be {}", place.key, value, range));
             field(s) = value;
           },
           [=](const Settings& s) {
             Settings copy = s;
-            return number(field(copy));
+            return number_text(field(copy));
           }};
 }
 
@@ -147,33 +132,21 @@ Key models() {
           }};
 }
 
-Key region() {
-  return {"cells.region",
-          "array of 4 numbers",
-          "[x0, y0, x1, y1] with x0 < x1, y0 < y1; []: everywhere",
-          "where cells are made, in the scene's CRS; never limits what is seen from them",
-          [](Settings& s, const toml::node& node, const Place& place) {
-            const toml::array* array = node.as_array();
-            if (!array || (!array->empty() && array->size() != 4))
-              place.refuse(node, fmt::format("'{}' must be four numbers [x0, y0, x1, y1]", place.key));
-            s.cells.region.reset();
-            if (array->empty()) return;
-            std::array<double, 4> box{};
-            for (size_t i = 0; i < 4; ++i) box[i] = finite(*array->get(i), place);
-            if (!(box[0] < box[2] && box[1] < box[3]))
-              place.refuse(
-                  node,
-                  fmt::format("'{}' is empty; it must be [x0, y0, x1, y1] with x0 < x1, y0 < y1", place.key));
-            s.cells.region = box;
-          },
-          [](const Settings& s) {
-            if (!s.cells.region) return std::string("[]");
-            const auto& b = *s.cells.region;
-            return fmt::format("[{}, {}, {}, {}]", number(b[0]), number(b[1]), number(b[2]), number(b[3]));
-          }};
+}  // namespace
+
+std::string number_text(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
 }
 
-}  // namespace
+double finite_number(const toml::node& node, const Place& place) {
+  const bool is_number = node.is_floating_point() || node.is_integer();
+  const double value = is_number ? node.value<double>().value_or(NAN) : NAN;
+  if (!is_number) place.refuse(node, fmt::format("'{}' must be a number", place.key));
+  if (!std::isfinite(value)) place.refuse(node, fmt::format("'{}' must be a finite number", place.key));
+  return value;
+}
 
 void Place::refuse(const toml::node& node, const std::string& what) const {
   throw Error(ExitStatus::usage, fmt::format("{}: line {}: {}", name, node.source().begin.line, what));
@@ -199,19 +172,29 @@ const std::vector<Key>& settings_keys() {
            [](Settings& s) -> std::string& { return s.scene.floors_field; }),
       real("scene.floor_height", 1, 100, "m", "of a floor, where footprints state floors and no height",
            [](Settings& s) -> double& { return s.scene.floor_height_m; }),
-      choice("navigation.mode", {"walk"}, "walk: cells at eye height above ground or terrain",
+      choice("navigation.mode", {"walk", "fly"},
+             "walk: cells at eye height above ground; fly: cells over a range of heights above ground",
              [](Settings& s) -> std::string& { return s.navigation.mode; }),
       real("navigation.seed_size", 0.01, 10, "m",
            "a gap of two seeds stays open, a narrower one may close; a voxel is four seeds",
            [](Settings& s) -> double& { return s.navigation.seed_size_m; }),
-      real("navigation.eye_height", 0.1, 100, "m", "of the eye above ground, +- 0.25 m",
+      real("navigation.eye_height", 0.1, 100, "m", "walk: of the eye above ground, +- 0.25 m",
            [](Settings& s) -> double& { return s.navigation.eye_height_m; }),
+      real("navigation.fly_lowest", -1000, 10000, "m",
+           "fly: where cells begin, above the lowest ground below",
+           [](Settings& s) -> double& { return s.navigation.fly_lowest_m; }),
+      real("navigation.fly_highest", -1000, 10000, "m",
+           "fly: where cells end, above the highest ground below",
+           [](Settings& s) -> double& { return s.navigation.fly_highest_m; }),
       real("cells.size", 0.1, 1000, "m", "horizontal edge of a view-cell",
            [](Settings& s) -> double& { return s.cells.size_m; }),
       real("cells.height", 0.1, 1000, "m",
            "vertical edge of a view-cell; cells stack where the ground varies more",
            [](Settings& s) -> double& { return s.cells.height_m; }),
-      region(),
+      whole("cells.largest", 1, 64, true,
+            "fly: in open space, cells are up to this many times as large in each direction",
+            [](Settings& s) -> int& { return s.cells.largest; }),
+      region_key(),
       whole("slices.max", 1, 127, false, "most slices per axis of an object",
             [](Settings& s) -> int& { return s.slices.max; }),
       choice("shrink.method", {"sealed"}, "how occluders are shrunk by the view-cell",

@@ -28,6 +28,13 @@ struct Key {
   std::function<std::string(const Settings&)> get;
 };
 
+/// A number of either kind. Refuses what is none, NaN and infinity.
+double finite_number(const toml::node& node, const Place& place);
+/// The shortest text that reads back as the same double, and reads as a float in TOML.
+std::string number_text(double value);
+
+Key region_key();
+
 /// Every key, in the order of run.toml; defaults are those of Settings.
 const std::vector<Key>& settings_keys();
 

@@ -24,11 +24,13 @@ std::string refusal(const std::string& text) {
 
 const std::string model = "[scene]\nmodel = 'a.json'\n";
 
+using Corners = std::vector<std::array<double, 2>>;
+
 TEST(Settings, DefaultsAndRelativeModels) {
   const Settings settings = parse(model);
   EXPECT_EQ(settings.scene.model, std::vector<std::string>{"/base/a.json"});
   EXPECT_EQ(settings.cells.size_m, 10.0);
-  EXPECT_FALSE(settings.cells.region.has_value());
+  EXPECT_TRUE(settings.cells.region.empty());
 }
 
 TEST(Settings, EveryKeyIsRead) {
@@ -36,8 +38,9 @@ TEST(Settings, EveryKeyIsRead) {
       "[scene]\nmodel = ['/x/a.json', 'sub/../b.obj']\nterrain_tile = 32\nup = 'y'\nunit = 0.001\n"
       "crs = 'EPSG:3946'\nheight_field = 'H'\nfloors_field = 'F \"n\"'\nfloor_height = "
       "2.5\n[navigation]\nmode = "
-      "'walk'\nseed_size = 0.5\n"
-      "eye_height = 2\n[cells]\nsize = 5\nheight = 2.5\nregion = [1, 2.5, 3, 4]\n[slices]\nmax = "
+      "'fly'\nseed_size = 0.5\n"
+      "eye_height = 2\nfly_lowest = -1\nfly_highest = 25.5\n"
+      "[cells]\nsize = 5\nheight = 2.5\nlargest = 8\nregion = [1, 2.5, 3, 4]\n[slices]\nmax = "
       "4\n[shrink]\nmethod = 'sealed'\n"
       "[occlusion]\nmethod = 'panorama'\nresolution = 256\nsubdivide = 3\n[stereo]\neye_margin = 0\n");
   EXPECT_EQ(s.scene.model, (std::vector<std::string>{"/x/a.json", "/base/b.obj"}));
@@ -53,7 +56,11 @@ TEST(Settings, EveryKeyIsRead) {
   EXPECT_EQ(s.navigation.eye_height_m, 2);
   EXPECT_EQ(s.cells.size_m, 5);
   EXPECT_EQ(s.cells.height_m, 2.5);
-  EXPECT_EQ(s.cells.region, (std::array<double, 4>{1, 2.5, 3, 4}));
+  EXPECT_EQ(s.navigation.mode, "fly");
+  EXPECT_EQ(s.navigation.fly_lowest_m, -1);
+  EXPECT_EQ(s.navigation.fly_highest_m, 25.5);
+  EXPECT_EQ(s.cells.largest, 8);
+  EXPECT_EQ(s.cells.region, (Corners{{1, 2.5}, {3, 2.5}, {3, 4}, {1, 4}}));
   EXPECT_EQ(s.slices.max, 4);
   EXPECT_EQ(s.occlusion.resolution, 256);
   EXPECT_EQ(s.occlusion.subdivide, 3);
@@ -69,6 +76,41 @@ TEST(Settings, WhatIsWrittenReadsBackTheSame) {
   EXPECT_EQ(to_toml(parse(to_toml(parse(model)))), to_toml(parse(model)));
 }
 
+TEST(Settings, RegionsAreBoxesOrPolygons) {
+  const auto region = [](const char* text) { return parse(model + "[cells]\nregion = " + text); };
+  const auto value = [](const Settings& settings) {
+    for (const auto& [key, text] : list_settings(settings))
+      if (key == "cells.region") return text;
+    return std::string();
+  };
+  const Settings polygon = region("[[0, 0], [10.5, 0], [3, 7], [0, 0.1]]");
+  EXPECT_EQ(polygon.cells.region, (Corners{{0, 0}, {10.5, 0}, {3, 7}, {0, 0.1}}));
+  EXPECT_EQ(value(polygon), "[[0.0, 0.0], [10.5, 0.0], [3.0, 7.0], [0.0, 0.1]]");
+  EXPECT_EQ(parse(to_toml(polygon)).cells.region, polygon.cells.region);
+  EXPECT_EQ(value(region("[1, 2, 3, 4]")), "[1.0, 2.0, 3.0, 4.0]");
+  EXPECT_EQ(value(region("[]")), "[]");
+  for (const auto& [wrong, word] : {std::pair{"[[0, 0], [1, 1]]", "3"},
+                                    {"[[0, 0], [1, 1], [0]]", "two numbers"},
+                                    {"[[0, 0], [1, nan], [0, 1]]", "finite"},
+                                    {"[[0, 0], [1, inf], [0, 1]]", "finite"},
+                                    {"[[0, 0], ['a', 1], [0, 1]]", "number"},
+                                    {"[[0, 0], 1, [0, 1]]", "two numbers"},
+                                    {"[0, [0, 0], 1, [0, 1]]", "number"},
+                                    {"'here'", "polygon"},
+                                    {"[[]]", "two numbers"}}) {
+    const std::string message = refusal(model + "[cells]\nregion = " + wrong + "\n");
+    EXPECT_EQ(message.rfind("demo.toml: line 4: 'cells.region'", 0), 0u) << message;
+    EXPECT_NE(message.find(word), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+}
+
+TEST(Settings, FlyingNeedsARangeOfHeights) {
+  EXPECT_EQ(
+      refusal(model + "[navigation]\nfly_lowest = 60\n"),
+      "demo.toml: 'navigation.fly_lowest' is 60; it must be below 'navigation.fly_highest', which is 60");
+}
+
 TEST(Settings, UnknownKeyNamesLineAndNearest) {
   EXPECT_EQ(refusal(model + "\n\n[cells]\nheight = 1\nsise = 3\n"),
             "demo.toml: line 7: unknown key 'cells.sise'; did you mean 'cells.size'?");
@@ -81,8 +123,9 @@ TEST(Settings, WrongTypesAndRangesNameTheLine) {
        {"[cells]\nsize = 'ten'\n", "[cells]\nsize = nan\n", "[cells]\nsize = inf\n", "[cells]\nsize = -1\n",
         "[cells]\nsize = true\n", "[slices]\nmax = 1.5\n", "[slices]\nmax = 128\n",
         "[occlusion]\nresolution = 500\n", "[occlusion]\nresolution = 8192\n", "[occlusion]\nsubdivide = 0\n",
-        "[navigation]\nmode = 'fly'\n", "[navigation]\nmode = 3\n", "[cells]\nregion = [0, 0, 0, 1]\n",
-        "[cells]\nregion = [0, 0, 1]\n", "[cells]\nregion = [0, 0, 1, nan]\n", "[cells]\nregion = 4\n"})
+        "[navigation]\nmode = 'swim'\n", "[cells]\nlargest = 3\n", "[navigation]\nmode = 3\n",
+        "[cells]\nregion = [0, 0, 0, 1]\n", "[cells]\nregion = [0, 0, 1]\n",
+        "[cells]\nregion = [0, 0, 1, nan]\n", "[cells]\nregion = 4\n"})
     EXPECT_NE(refusal(model + wrong).find("demo.toml: line 4: '"), std::string::npos)
         << wrong << refusal(model + wrong);
 }
