@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "worker/prepare.h"
+#include "worker/cell_windows.h"
 #include "worker/view_cells.h"
 
 namespace veduta {
@@ -38,8 +38,7 @@ std::vector<Box> parts_of(const Box& cell, int subdivide) {
 Baker::Baker(City city, const std::vector<WindowOccluders>& occluders, const Settings& settings,
              const std::string& gpu)
     : city_(std::move(city)),
-      subdivide_(settings.occlusion.subdivide),
-      half_extent_m_(part_half_extent(settings)),
+      settings_(settings),
       context_(gpu, local_rank()),
       counts_(city_.scene, city_.slices, city_.triangle_slices),
       slice_boxes_(slice_boxes(city_.scene, city_.slices, city_.triangle_slices)) {
@@ -54,10 +53,11 @@ CellRecord Baker::bake(uint32_t cell) {
   // may be moved to the middle of where eyes can be: from inside of a house, through its own near wall,
   // hardly anything would be hidden. Eyes may stand between free space and a wall, whose voxels are taken:
   // one voxel off.
+  const glm::dvec3 half_extent_m = part_half_extent(settings_, size_class_of(settings_, city_.cells[cell]));
   const float margin_m = city_.navigation.free.leaf_size_m;
-  for (const Box& part : parts_of(city_.cells[cell], subdivide_)) {
+  for (const Box& part : parts_of(city_.cells[cell], settings_.occlusion.subdivide)) {
     const Box eyes = navigable_part(city_.navigation.free, part, margin_m);
-    if (!eyes.empty()) panorama_->add_part(eyes.center(), half_extent_m_);
+    if (!eyes.empty()) panorama_->add_part(eyes.center(), half_extent_m);
   }
   const Occlusion& occlusion = panorama_->finish_cell();
   CellRecord record;

@@ -30,8 +30,7 @@ class Baker {
 
  private:
   City city_;
-  int subdivide_;
-  glm::dvec3 half_extent_m_;  // of a part, eye margin included
+  Settings settings_;
   EglContext context_;
   TriangleCounts counts_;
   SliceBoxes slice_boxes_;

@@ -8,6 +8,7 @@
 #include "scene/atomic_file.h"
 #include "scene/error.h"
 #include "worker/brick_grid.h"
+#include "worker/cell_windows.h"
 
 namespace veduta {
 namespace {
@@ -59,17 +60,6 @@ uint32_t tile_at(const PreparationPlan& plan, int i, int j) {
 
 int voxels(double metres, double voxel_m) {
   return static_cast<int>(std::min(std::ceil(metres / voxel_m), 1e8));
-}
-
-/// Half-extents of the windows that occluders are made for: parts of cells, and whole cells.
-std::vector<glm::dvec3> window_half_extents(const Settings& settings) {
-  const double margin = settings.stereo.eye_margin_m, vertical = settings.cells.height_m / 2 + margin;
-  const auto of = [&](int parts) {
-    const double horizontal = settings.cells.size_m / (2.0 * parts) + margin;
-    return glm::dvec3(horizontal, horizontal, vertical);
-  };
-  if (settings.occlusion.subdivide <= 1) return {of(1)};
-  return {of(settings.occlusion.subdivide), of(1)};
 }
 
 }  // namespace

@@ -2,21 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "scene/error.h"
 #include "scene/import.h"
-#include "worker/seed_grid.h"
+#include "worker/cell_windows.h"
 #include "worker/seed_region.h"
 #include "worker/shrinker.h"
 #include "worker/slices.h"
-#include "worker/view_cells.h"
+#include "worker/tile_cells.h"
 
 namespace veduta {
 namespace {
 
-constexpr int stages = 6;
-constexpr double ground_step_m = 1.0;
+constexpr int stages = 5;
 
 ImportOptions import_options(const Settings& settings) {
   ImportOptions options;
@@ -30,30 +30,23 @@ ImportOptions import_options(const Settings& settings) {
   return options;
 }
 
-WalkCells walk_options(const Settings& settings, const Scene& scene) {
-  WalkCells options;
-  options.size_m = settings.cells.size_m;
-  options.height_m = settings.cells.height_m;
-  options.eye_height_m = settings.navigation.eye_height_m;
-  if (settings.cells.region) {
-    const auto& r = *settings.cells.region;
-    options.region = {
-        {r[0] - scene.origin[0], r[1] - scene.origin[1], r[2] - scene.origin[0], r[3] - scene.origin[1]}};
-  }
-  return options;
+bool has_ground(const Scene& scene) {
+  return std::any_of(scene.objects.begin(), scene.objects.end(),
+                     [](const Object& o) { return o.kind == Kind::terrain || o.kind == Kind::road; });
 }
 
 std::vector<WindowOccluders> shrink(const Settings& settings, const Scene& scene, SeedRegion region,
-                                    const std::vector<Box>& cells) {
+                                    std::vector<PlacedTriangle> triangles, const std::vector<Box>& cells) {
   ShrinkRequest request;
-  request.half_extents_m = {part_half_extent(settings)};
+  for (int size_class = 0; size_class < size_classes(settings); ++size_class)
+    request.half_extents_m.push_back(part_half_extent(settings, size_class));
   request.resolution = settings.occlusion.resolution;
   const glm::vec3 extent = scene.bounds().upper - scene.bounds().lower;
   request.reach_m = std::sqrt(extent.x * extent.x + extent.y * extent.y + extent.z * extent.z);
   request.lowest_eye_m = cells.front().lower.z;
   for (const Box& cell : cells) request.lowest_eye_m = std::min<double>(request.lowest_eye_m, cell.lower.z);
   const int nx = region.frame().nx, ny = region.frame().ny;
-  const SealedBlock block{std::move(region), all_triangles(scene), 0, nx, 0, ny};
+  const SealedBlock block{std::move(region), std::move(triangles), 0, nx, 0, ny};
   return make_shrinker(settings.shrink.method)->shrink(block, request);
 }
 
@@ -67,12 +60,6 @@ void note_rings(const std::vector<WindowOccluders>& windows, std::vector<std::st
 }
 
 }  // namespace
-
-glm::dvec3 part_half_extent(const Settings& settings) {
-  const double margin = settings.stereo.eye_margin_m;
-  const double horizontal = settings.cells.size_m / (2.0 * settings.occlusion.subdivide) + margin;
-  return {horizontal, horizontal, settings.cells.height_m / 2 + margin};
-}
 
 Prepared prepare(const Settings& settings, const StageProgress& progress) {
   int done = 0;
@@ -90,23 +77,24 @@ Prepared prepare(const Settings& settings, const StageProgress& progress) {
   prepared.notes.push_back(fmt::format("{}: {} objects, {} triangles", imported.report.format,
                                        city.scene.objects.size(), city.scene.triangle_count()));
 
-  stage("seed test");
-  const GridFrame frame = make_frame(city.scene.bounds(), seeds_per_voxel * settings.navigation.seed_size_m);
-  const SeedGrid seeds = seed_test(city.scene, frame);
-
   stage("free space");
+  const GridFrame frame = make_frame(city.scene.bounds(), seeds_per_voxel * settings.navigation.seed_size_m);
   SeedRegion region = make_seed_region(city.scene, frame);
   const BitGrid& free = region.free;
 
   stage("view-cells");
-  city.cells = walk_cells(seeds, free, walk_options(settings, city.scene));
+  std::vector<PlacedTriangle> triangles = all_triangles(city.scene);
+  const CellOptions options =
+      cell_options(settings, city.scene.origin, frame, city.scene.bounds().lower.z, has_ground(city.scene));
+  CellGatherer gatherer(options);
+  gatherer.add(make_tile_cells(region, triangles, 0, frame.nx, 0, frame.ny, options));
+  city.cells = gatherer.finish(city.navigation);
   if (city.cells.empty()) {
-    throw Error(ExitStatus::bad_input, "cells: there is no place to stand in: no free ground at eye height" +
-                                           std::string(settings.cells.region ? " in cells.region" : "") +
-                                           "; check units, up axis, navigation.seed_size and cells.region");
+    throw Error(ExitStatus::bad_input,
+                "cells: there is no place to stand in: no free ground at eye height" +
+                    std::string(settings.cells.region.empty() ? "" : " in cells.region") +
+                    "; check units, up axis, navigation.seed_size and cells.region");
   }
-  city.navigation.free = navigable_octree(free, city.cells);
-  city.navigation.ground = ground_heights(seeds, ground_step_m);
   prepared.notes.push_back(fmt::format(
       "grid {} x {} x {} voxels of {} m, {:.1f} % free; {} view-cells", frame.nx, frame.ny, frame.nz,
       frame.size_m, 100.0 * static_cast<double>(free.count()) / (1.0 * frame.nx * frame.ny * frame.nz),
@@ -117,7 +105,7 @@ Prepared prepare(const Settings& settings, const StageProgress& progress) {
   city.triangle_slices = slice_triangles(city.scene, city.slices);
 
   stage("shrink");
-  prepared.occluders = shrink(settings, city.scene, std::move(region), city.cells);
+  prepared.occluders = shrink(settings, city.scene, std::move(region), std::move(triangles), city.cells);
   note_rings(prepared.occluders, prepared.notes);
   if (progress) progress("prepared", stages, stages);
   return prepared;

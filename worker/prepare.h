@@ -27,9 +27,6 @@ struct Prepared {
 ///   asks for too much memory.
 Prepared prepare(const Settings& settings, const StageProgress& progress = {});
 
-/// Half-extents of the parts that a cell is baked in, eye margin included, m.
-glm::dvec3 part_half_extent(const Settings& settings);
-
 /// Writes prepared/ (city.h5, occluders.bin) into the run directory, under a temporary name first.
 void write_prepared(const std::filesystem::path& run_directory, const Prepared& prepared);
 

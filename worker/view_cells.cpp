@@ -1,129 +1,159 @@
 #include "worker/view_cells.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <limits>
+#include <optional>
+
+#include "scene/error.h"
 
 namespace veduta {
 namespace {
 
-/// Eye heights of a square: from the lowest to the highest ground on which a viewer can stand.
-struct Band {
-  double lower = std::numeric_limits<double>::infinity();
-  double upper = -std::numeric_limits<double>::infinity();
+/// A box in lattice numbers of the region's frame: columns cut to the city's.
+struct RegionColumns {
+  int i0, i1, j0, j1;   // [i0, i1], [j0, j1]
+  bool beyond = false;  // some of it lies beside the city
 };
 
-bool any_free(const BitGrid& free, const Box& box) {
+RegionColumns columns_of(const CellSpace& space, const Box& box) {
+  const GridFrame& frame = space.region.frame();
+  const GridFrame& city = space.options.city;
+  const VoxelRange x = voxels_of(box.lower.x, box.upper.x, frame),
+                   y = voxels_of(box.lower.y, box.upper.y, frame);
+  const int i0 = std::max(x.first, city.i0), i1 = std::min(x.last, city.i0 + city.nx - 1);
+  const int j0 = std::max(y.first, city.j0), j1 = std::min(y.last, city.j0 + city.ny - 1);
+  if (i0 < frame.i0 || i1 >= frame.i0 + frame.nx || j0 < frame.j0 || j1 >= frame.j0 + frame.ny)
+    throw Error(ExitStatus::defect, "view-cells: a tile's halo is narrower than a cell");
+  return {i0 - frame.i0, i1 - frame.i0, j0 - frame.j0, j1 - frame.j0,
+          i0 > x.first || i1 < x.last || j0 > y.first || j1 < y.last};
+}
+
+/// How much of heights [lower, upper] is free in the columns.
+struct Freedom {
+  bool any = false, all = true;
+};
+
+Freedom freedom(const CellSpace& space, const RegionColumns& columns, double lower_m, double upper_m) {
+  const BitGrid& free = space.region.free;
   const GridFrame& frame = free.frame();
-  // Voxels are half-open here: one that only shares a face with the box is no room to stand in.
-  const double e = 1e-3 * frame.size_m;
-  const int k0 = frame.layer(box.lower.z + e), k1 = frame.layer(box.upper.z - e);
-  for (int j = frame.column_y(box.lower.y + e); j <= frame.column_y(box.upper.y - e); ++j) {
-    for (int i = frame.column_x(box.lower.x + e); i <= frame.column_x(box.upper.x - e); ++i) {
+  VoxelRange z = voxels_of(lower_m, upper_m, frame);
+  z.first -= frame.k0, z.last -= frame.k0;
+  Freedom freedom;
+  freedom.any = z.last >= frame.nz;  // above everything
+  freedom.all = z.first >= 0 && !columns.beyond;
+  const int k0 = std::max(z.first, 0), k1 = std::min(z.last, frame.nz - 1);
+  for (int j = columns.j0; j <= columns.j1 && k0 <= k1; ++j) {
+    for (int i = columns.i0; i <= columns.i1; ++i) {
       const uint64_t* bits = free.column(i, j);
       for (int w = k0 >> 6; w <= k1 >> 6; ++w) {
-        if (bits[w] & run_mask(w, k0, k1)) return true;
+        const uint64_t mask = run_mask(w, k0, k1);
+        freedom.any |= (bits[w] & mask) != 0, freedom.all &= (~bits[w] & mask) == 0;
       }
     }
   }
-  return false;
+  freedom.any &= columns.i0 <= columns.i1 && columns.j0 <= columns.j1;
+  freedom.all &= freedom.any;
+  return freedom;
 }
 
-Band eye_band(const SeedGrid& seeds, const BitGrid& free, const WalkCells& options, const Box& square) {
-  const GridFrame& frame = free.frame();
-  Band band;
-  const double e = 1e-3 * frame.size_m;
-  for (int j = frame.column_y(square.lower.y + e); j <= frame.column_y(square.upper.y - e); ++j) {
-    for (int i = frame.column_x(square.lower.x + e); i <= frame.column_x(square.upper.x - e); ++i) {
-      const float ground = seeds.ground[static_cast<size_t>(j) * frame.nx + i];
-      if (std::isnan(ground)) continue;
-      const double eye = ground + options.eye_height_m;
-      const int k0 = frame.layer(eye - options.eye_slack_m), k1 = frame.layer(eye + options.eye_slack_m);
-      bool standing = false;
-      for (int k = k0; k <= k1; ++k) standing |= free.get(i, j, k);
-      if (!standing) continue;
-      band.lower = std::min(band.lower, eye - options.eye_slack_m);
-      band.upper = std::max(band.upper, eye + options.eye_slack_m);
+struct Heights {
+  double lower = 0, upper = 0;
+};
+
+/// Eye heights of a square, from below: those over each ground on which a viewer can stand, united where they
+/// are no further apart than a cell's height.
+std::vector<Heights> eye_bands(const CellSpace& space, const RegionColumns& columns) {
+  const CellOptions& options = space.options;
+  std::vector<Heights> eyes;
+  for (int j = columns.j0; j <= columns.j1; ++j) {
+    for (int i = columns.i0; i <= columns.i1; ++i) {
+      for (const float ground : space.ground.at(static_cast<size_t>(j) * space.region.frame().nx + i)) {
+        const double eye = ground + options.eye_height_m;
+        const Heights band{eye - options.eye_slack_m, eye + options.eye_slack_m};
+        if (freedom(space, {i, i, j, j}, band.lower, band.upper).any) eyes.push_back(band);
+      }
     }
   }
-  return band;
+  std::sort(eyes.begin(), eyes.end(), [](const Heights& a, const Heights& b) { return a.lower < b.lower; });
+  std::vector<Heights> bands;
+  for (const Heights& band : eyes) {
+    if (bands.empty() || band.lower > bands.back().upper + options.height_m)
+      bands.push_back(band);
+    else
+      bands.back().upper = std::max(bands.back().upper, band.upper);
+  }
+  return bands;
+}
+
+std::vector<LatticeCell> walk_cells(const CellSpace& space, LatticeCell cell) {
+  const double height = space.options.height_m;
+  const RegionColumns columns = columns_of(space, cell.box);
+  std::vector<LatticeCell> cells;
+  for (const Heights& band : eye_bands(space, columns)) {
+    const int storeys = static_cast<int>(std::ceil((band.upper - band.lower) / height - 1e-6));
+    const double bottom = 0.5 * (band.lower + band.upper) - 0.5 * storeys * height;
+    for (int storey = 0; storey < storeys; ++storey, ++cell.k) {
+      cell.box.lower.z = static_cast<float>(bottom + storey * height);
+      cell.box.upper.z = static_cast<float>(bottom + (storey + 1) * height);
+      if (freedom(space, columns, cell.box.lower.z, cell.box.upper.z).any) cells.push_back(cell);
+    }
+  }
+  return cells;
+}
+
+/// The lowest and the highest ground of the columns; without ground, their lowest surface.
+std::optional<Heights> grounds(const CellSpace& space, const RegionColumns& columns) {
+  const GridFrame& frame = space.region.frame();
+  std::optional<Heights> ground, surface;
+  const auto extend = [](std::optional<Heights>& heights, double lower, double upper) {
+    if (!heights) heights = {lower, upper};
+    heights->lower = std::min(heights->lower, lower), heights->upper = std::max(heights->upper, upper);
+  };
+  for (int j = columns.j0; j <= columns.j1; ++j) {
+    for (int i = columns.i0; i <= columns.i1; ++i) {
+      const auto levels = space.ground.at(static_cast<size_t>(j) * frame.nx + i);
+      if (!levels.empty()) extend(ground, levels.front(), levels.back());
+      const uint64_t* occupied = space.region.occupied->column(i, j);
+      for (int w = 0; w < space.region.occupied->words() && !ground; ++w) {
+        if (occupied[w] == 0) continue;
+        const double lowest = frame.z(64 * w + std::countr_zero(occupied[w]));
+        if (!surface || lowest < surface->lower) surface = {lowest, lowest};
+        break;
+      }
+    }
+  }
+  return ground ? ground : surface;
+}
+
+std::vector<LatticeCell> fly_cells(const CellSpace& space, LatticeCell cell) {
+  const CellOptions& options = space.options;
+  const RegionColumns columns = columns_of(space, cell.box);
+  const auto ground = grounds(space, columns);
+  std::vector<LatticeCell> cells;
+  if (!ground) return cells;
+  const double lowest = (ground->lower + options.fly_lowest_m) / options.height_m;
+  const double highest = (ground->upper + options.fly_highest_m) / options.height_m;
+  for (cell.k = static_cast<int>(std::floor(lowest + 1e-6)); cell.k < highest - 1e-6; ++cell.k) {
+    cell.box.lower.z = static_cast<float>(cell.k * options.height_m);
+    cell.box.upper.z = static_cast<float>((cell.k + 1) * options.height_m);
+    const Freedom free = freedom(space, columns, cell.box.lower.z, cell.box.upper.z);
+    cell.open = free.all;
+    if (free.any) cells.push_back(cell);
+  }
+  return cells;
 }
 
 }  // namespace
 
-uint64_t hilbert_index(uint32_t order, uint32_t x, uint32_t y) {
-  uint64_t index = 0;
-  for (uint32_t s = order; s-- > 0;) {
-    const uint32_t rx = x >> s & 1, ry = y >> s & 1;
-    index += (uint64_t{1} << (2 * s)) * ((3 * rx) ^ ry);
-    if (ry == 0) {  // rotate the quadrant so that the curve joins up
-      const uint32_t mask = (1u << s) - 1;
-      if (rx == 1) x = ~x & mask, y = ~y & mask;
-      std::swap(x, y);
-    }
-    x &= (1u << s) - 1, y &= (1u << s) - 1;
-  }
-  return index;
-}
-
-std::vector<Box> walk_cells(const SeedGrid& seeds, const BitGrid& free, const WalkCells& options) {
-  const GridFrame& frame = free.frame();
-  const auto square_of = [&](double m) { return static_cast<int>(std::floor(m / options.size_m)); };
-  const int i0 = square_of(frame.x(0)), i1 = square_of(frame.x(frame.nx));
-  const int j0 = square_of(frame.y(0)), j1 = square_of(frame.y(frame.ny));
-  uint32_t order = 1;
-  while ((1 << order) <= std::max(i1 - i0, j1 - j0)) ++order;
-
-  struct Placed {
-    uint64_t hilbert;
-    Box box;
-  };
-  std::vector<Placed> placed;
-  for (int j = j0; j <= j1; ++j) {
-    for (int i = i0; i <= i1; ++i) {
-      const double x = (i + 0.5) * options.size_m, y = (j + 0.5) * options.size_m;
-      if (const auto& r = options.region; r && (x < (*r)[0] || y < (*r)[1] || x > (*r)[2] || y > (*r)[3]))
-        continue;
-      Box box{
-          {static_cast<float>(i * options.size_m), static_cast<float>(j * options.size_m), 0},
-          {static_cast<float>((i + 1) * options.size_m), static_cast<float>((j + 1) * options.size_m), 0}};
-      const Band band = eye_band(seeds, free, options, box);
-      if (!(band.lower < band.upper)) continue;
-      const int storeys = static_cast<int>(std::ceil((band.upper - band.lower) / options.height_m - 1e-6));
-      const double bottom = 0.5 * (band.lower + band.upper) - 0.5 * storeys * options.height_m;
-      for (int k = 0; k < storeys; ++k) {
-        box.lower.z = static_cast<float>(bottom + k * options.height_m);
-        box.upper.z = static_cast<float>(bottom + (k + 1) * options.height_m);
-        if (any_free(free, box)) {
-          placed.push_back(
-              {hilbert_index(order, static_cast<uint32_t>(i - i0), static_cast<uint32_t>(j - j0)), box});
-        }
-      }
-    }
-  }
-  std::stable_sort(placed.begin(), placed.end(),
-                   [](const Placed& a, const Placed& b) { return a.hilbert < b.hilbert; });
-  std::vector<Box> cells;
-  for (const Placed& p : placed) cells.push_back(p.box);
-  return cells;
-}
-
-HeightField ground_heights(const SeedGrid& seeds, double step_m) {
-  const GridFrame& frame = seeds.occupied.frame();
-  const int factor = std::max(1, static_cast<int>(std::round(step_m / frame.size_m)));
-  HeightField field;
-  field.lower_x = static_cast<float>(frame.x(0)), field.lower_y = static_cast<float>(frame.y(0));
-  field.step_m = static_cast<float>(factor * frame.size_m);
-  field.nx = static_cast<uint32_t>((frame.nx + factor - 1) / factor);
-  field.ny = static_cast<uint32_t>((frame.ny + factor - 1) / factor);
-  field.height.assign(static_cast<size_t>(field.nx) * field.ny, std::numeric_limits<float>::quiet_NaN());
-  for (int j = 0; j < frame.ny; ++j) {
-    for (int i = 0; i < frame.nx; ++i) {
-      float& height = field.height[static_cast<size_t>(j / factor) * field.nx + i / factor];
-      height = std::fmax(height, seeds.ground[static_cast<size_t>(j) * frame.nx + i]);
-    }
-  }
-  return field;
+std::vector<LatticeCell> square_cells(const CellSpace& space, int i, int j) {
+  const CellOptions& options = space.options;
+  const glm::dvec2 center((i + 0.5) * options.size_m, (j + 0.5) * options.size_m);
+  if (!options.region.empty() && !polygon_contains(options.region, center)) return {};
+  LatticeCell cell;
+  cell.i = i, cell.j = j;
+  cell.box = lattice_square(i, j, options.size_m);
+  return options.fly ? fly_cells(space, cell) : walk_cells(space, cell);
 }
 
 }  // namespace veduta

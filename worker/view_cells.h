@@ -1,42 +1,48 @@
 // View-cells: the boxes for which rows are baked (DESIGN §3).
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "pvs/navigation.h"
-#include "scene/box.h"
-#include "worker/bit_grid.h"
-#include "worker/seed_grid.h"
+#include "worker/cell_lattice.h"
+#include "worker/ground_levels.h"
+#include "worker/seed_region.h"
 
 namespace veduta {
 
-struct WalkCells {
-  double size_m = 10;         ///< horizontal edge
-  double height_m = 1;        ///< vertical edge
-  double eye_height_m = 1.7;  ///< above the ground
-  double eye_slack_m = 0.25;  ///< eyes are at eye_height +- this
-  /// x0, y0, x1, y1 relative to the scene origin: cells are made where their centre lies in it.
-  std::optional<std::array<double, 4>> region;
+/// What the cells of a part of the city are made from.
+struct CellSpace {
+  const SeedRegion& region;    ///< cut to the city's frame; what is above it is free
+  const GroundLevels& ground;  ///< of the region's frame
+  const CellOptions& options;
 };
 
-/// The cells of a walk: every square of the lattice (multiples of size_m) is given as many boxes, one upon
-/// the other, as the eye heights above its free ground need, all of the same height; those without a free
-/// voxel are left out. Ordered along a Hilbert curve, then upwards.
-std::vector<Box> walk_cells(const SeedGrid& seeds, const BitGrid& free, const WalkCells& options);
+/// The cells of the square (i, j) of the lattice (multiples of size_m), upwards. \pre the region holds every
+/// column of the square that the city has.
+///
+/// Walk: as many boxes, one upon the other, as the eye heights above its free grounds need; grounds whose eye
+/// heights are further apart than a cell's height get boxes of their own. Fly: the boxes of the lattice
+/// (multiples of height_m) from the lowest ground + fly_lowest to the highest + fly_highest; where no ground
+/// is (under a house in a terrain with a hole), the lowest surface stands for it. Boxes without a free voxel
+/// are left out, and all boxes of a square whose centre is not in the region of interest.
+std::vector<LatticeCell> square_cells(const CellSpace& space, int i, int j);
 
-/// Position of (x, y) along the Hilbert curve that fills a square of 2^order points a side.
-uint64_t hilbert_index(uint32_t order, uint32_t x, uint32_t y);
+/// The columns [i0, i1) x [j0, j1) of a region.
+struct ColumnRange {
+  int i0 = 0, i1 = 0, j0 = 0, j1 = 0;
+};
 
-/// The octree of navigable space: the free voxels that lie in a cell. What is free but in no cell is left
+/// The free voxels of the columns that lie in a cell: navigable space. What is free but in no cell is left
 /// out: no viewer goes there, and a city's sky would fill the file.
-FreeOctree navigable_octree(const BitGrid& free, const std::vector<Box>& cells);
+/// \param cells of size class 0, all that the columns lie in; those of a square one after the other, upwards
+OctreeForest navigable_forest(const CellSpace& space, const ColumnRange& core,
+                              const std::vector<LatticeCell>& cells);
+
+/// The voxels of the columns that a surface passes.
+OctreeForest surface_forest(const SeedRegion& region, const ColumnRange& core);
 
 /// The bounds of what lies in the box and within `margin_m` (along each axis) of navigable space; empty when
 /// nothing does.
-Box navigable_part(const FreeOctree& octree, const Box& box, float margin_m);
-
-/// The ground as a height field of squares of about `step_m`, the highest ground of each.
-HeightField ground_heights(const SeedGrid& seeds, double step_m);
+Box navigable_part(const OctreeForest& forest, const Box& box, float margin_m);
 
 }  // namespace veduta

@@ -54,7 +54,7 @@ class ToyCity {
 
   Settings& settings() { return settings_; }
   void cells_within(double x0, double y0, double x1, double y1) {
-    settings_.cells.region = {{x0, y0, x1, y1}};
+    settings_.cells.region = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
   }
 
   /// Bakes every cell. \return false when there is no EGL to bake with.

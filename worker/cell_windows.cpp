@@ -1,0 +1,48 @@
+#include "worker/cell_windows.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace veduta {
+namespace {
+
+constexpr double rounding_m = 1e-3;  // half a float's step is less up to 16 km from the origin
+
+glm::dvec3 half_extent(const Settings& settings, int size_class, int parts) {
+  const double margin = settings.stereo.eye_margin_m + rounding_m;
+  const double horizontal = std::ldexp(settings.cells.size_m, size_class) / (2.0 * parts) + margin;
+  return {horizontal, horizontal, std::ldexp(settings.cells.height_m, size_class) / 2 + margin};
+}
+
+}  // namespace
+
+int size_classes(const Settings& settings) {
+  if (settings.navigation.mode != "fly") return 1;
+  return std::bit_width(static_cast<unsigned>(settings.cells.largest));
+}
+
+int size_class_of(const Settings& settings, const Box& cell) {
+  const double edge = cell.upper.x - cell.lower.x;
+  const auto size_class = static_cast<int>(std::lround(std::log2(edge / settings.cells.size_m)));
+  return std::clamp(size_class, 0, size_classes(settings) - 1);
+}
+
+glm::dvec3 cell_half_extent(const Settings& settings, int size_class) {
+  return half_extent(settings, size_class, 1);
+}
+
+glm::dvec3 part_half_extent(const Settings& settings, int size_class) {
+  return half_extent(settings, size_class, settings.occlusion.subdivide);
+}
+
+std::vector<glm::dvec3> window_half_extents(const Settings& settings) {
+  std::vector<glm::dvec3> windows;
+  for (int size_class = 0; size_class < size_classes(settings); ++size_class) {
+    windows.push_back(part_half_extent(settings, size_class));
+    if (settings.occlusion.subdivide > 1) windows.push_back(cell_half_extent(settings, size_class));
+  }
+  return windows;
+}
+
+}  // namespace veduta

@@ -1,0 +1,29 @@
+// The sizes of boxes for which a configuration asks what is hidden: cells of every size class, and their
+// parts.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "scene/box.h"
+#include "worker/settings.h"
+
+namespace veduta {
+
+/// How many size classes the cells of a configuration have. Those of class c are 2^c times cells.size by
+/// cells.height: one class when walking, up to cells.largest when flying.
+int size_classes(const Settings& settings);
+
+/// The size class of a cell that was made with these settings.
+int size_class_of(const Settings& settings, const Box& cell);
+
+/// Half-extents, m, that hold every cell of a size class, and every one of its subdivide x subdivide parts of
+/// its full height. Eye margin included, and a millimetre for bounds that are rounded to float.
+glm::dvec3 cell_half_extent(const Settings& settings, int size_class);
+glm::dvec3 part_half_extent(const Settings& settings, int size_class = 0);
+
+/// What occluders are to be shrunk for: part and cell of class 0, part and cell of class 1, and so on; parts
+/// alone where a cell is its own part.
+std::vector<glm::dvec3> window_half_extents(const Settings& settings);
+
+}  // namespace veduta
