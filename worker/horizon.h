@@ -84,7 +84,8 @@ class Horizon {
   /// false for none.
   static bool clip(glm::vec3& a, glm::vec3& b, float depth_limit_m) {
     constexpr float beside = 1.01f, nearest_m = 1e-3f;
-    if (!clip(a, b, a.z - nearest_m, b.z - nearest_m) || !clip(a, b, depth_limit_m - a.z, depth_limit_m - b.z))
+    if (!clip(a, b, a.z - nearest_m, b.z - nearest_m) ||
+        !clip(a, b, depth_limit_m - a.z, depth_limit_m - b.z))
       return false;
     a.z = std::max(a.z, nearest_m), b.z = std::max(b.z, nearest_m);  // of a long edge, rounded
     return clip(a, b, beside * a.z - a.x, beside * b.z - b.x) &&
