@@ -6,9 +6,9 @@
 
 namespace veduta {
 
-/// A convex polygon of at most 7 corners: a triangle cut by four half-spaces.
+/// A convex polygon of at most 11 corners: a triangle cut by eight half-spaces.
 struct ClippedTriangle {
-  std::array<glm::dvec3, 8> corner;
+  std::array<glm::dvec3, 12> corner;
   int count = 0;
 };
 

@@ -40,7 +40,7 @@ struct Settings {
     int max = 8;  ///< most slices per axis of an object
   } slices;
   struct {
-    std::string method = "sealed";
+    std::string method = "planes";
   } shrink;
   struct {
     std::string method = "panorama";

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scene/error.h"
+#include "worker/shrink_planes.h"
 #include "worker/shrink_sealed.h"
 
 namespace veduta {
@@ -26,6 +27,7 @@ std::vector<RingWindow> ring_windows(const glm::dvec3& half_extent_m, int resolu
 
 std::unique_ptr<Shrinker> make_shrinker(const std::string& method) {
   if (method == "sealed") return std::make_unique<SealedShrinker>();
+  if (method == "planes") return std::make_unique<PlanesShrinker>();
   throw Error(ExitStatus::defect, "shrink.method: there is no method '" + method + "'");
 }
 
