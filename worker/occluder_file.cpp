@@ -8,7 +8,6 @@
 #include <fstream>
 
 #include "scene/error.h"
-#include "scene/sync_path.h"
 
 namespace veduta {
 namespace {
@@ -136,7 +135,6 @@ void write_occluder_file(const std::filesystem::path& file, const std::vector<Wi
   }
   if (!sink.finish())
     throw Error(ExitStatus::input_output, file.string() + ": cannot be written; is the disk full?");
-  sync_path(file);
 }
 
 std::vector<WindowOccluders> read_occluder_file(const std::filesystem::path& file) {

@@ -9,7 +9,7 @@
 
 namespace veduta {
 
-/// Writes the file, synced; not under a temporary name. \throw Error(input_output).
+/// Writes the file; neither synced nor under a temporary name. \throw Error(input_output).
 void write_occluder_file(const std::filesystem::path& file, const std::vector<WindowOccluders>& windows);
 
 /// \throw Error(bad_input) when it is missing or damaged: whatever it holds, what comes out is well formed.

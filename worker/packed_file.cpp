@@ -32,6 +32,20 @@ std::vector<char> packed(const std::vector<uint64_t>& words) {
 
 }  // namespace
 
+void replace_unsynced(const std::filesystem::path& file,
+                      const std::function<void(const std::filesystem::path&)>& write) {
+  const std::filesystem::path temporary = temporary_name(file, ::getpid());
+  std::error_code error;
+  try {
+    write(temporary);
+  } catch (...) {
+    std::filesystem::remove(temporary, error);
+    throw;
+  }
+  std::filesystem::rename(temporary, file, error);
+  if (error) throw Error(ExitStatus::input_output, file.string() + ": " + error.message());
+}
+
 void write_packed(const std::filesystem::path& file, size_t parts, const PartWords& words_of) {
   std::vector<std::vector<char>> bytes(parts);
   tbb::parallel_for(size_t{0}, parts, [&](size_t p) { bytes[p] = packed(words_of(p)); });
@@ -39,19 +53,14 @@ void write_packed(const std::filesystem::path& file, size_t parts, const PartWor
   uint64_t at = (header.size() + parts + 1) * sizeof(uint64_t);
   for (const auto& part : bytes) header.push_back(at), at += part.size();
   header.push_back(at);
-  // Not synced: after a power loss the preparation starts over.
-  const std::filesystem::path temporary = temporary_name(file, ::getpid());
-  std::ofstream out(temporary, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(header.data()),
-            static_cast<std::streamsize>(header.size() * sizeof(uint64_t)));
-  for (const auto& part : bytes) out.write(part.data(), static_cast<std::streamsize>(part.size()));
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(temporary, file, error);
-  if (!out || error) {
-    std::filesystem::remove(temporary, error);
-    throw Error(ExitStatus::input_output, file.string() + ": cannot be written; is the disk full?");
-  }
+  replace_unsynced(file, [&](const std::filesystem::path& temporary) {
+    std::ofstream out(temporary, std::ios::binary);
+    out.write(reinterpret_cast<const char*>(header.data()),
+              static_cast<std::streamsize>(header.size() * sizeof(uint64_t)));
+    for (const auto& part : bytes) out.write(part.data(), static_cast<std::streamsize>(part.size()));
+    out.close();
+    if (!out) throw Error(ExitStatus::input_output, file.string() + ": cannot be written; is the disk full?");
+  });
 }
 
 PackedFile::PackedFile(const std::filesystem::path& file, size_t parts)

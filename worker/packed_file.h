@@ -9,6 +9,12 @@
 
 namespace veduta {
 
+/// Runs `write` on a temporary name beside `file` and renames. Not synced: a preparation writes thousands of
+/// files, and after a power loss what is torn is found when it is read. \throw Error(input_output), and what
+/// `write` throws.
+void replace_unsynced(const std::filesystem::path& file,
+                      const std::function<void(const std::filesystem::path&)>& write);
+
 /// Calls words_of(part) for each part, several at a time, and writes what it gives, under a temporary name
 /// first. \throw Error(input_output).
 using PartWords = std::function<std::vector<uint64_t>(size_t part)>;

@@ -9,6 +9,7 @@
 #include "scene/error.h"
 #include "worker/brick_grid.h"
 #include "worker/cell_windows.h"
+#include "worker/tile_cells.h"
 
 namespace veduta {
 namespace {
@@ -90,7 +91,9 @@ PreparationPlan make_plan(const Scene& scene, const Settings& settings, const Pa
   });
   plan.halo_voxels = halo(voxel_m);
   // View-cells look as far around a tile as a cell goes.
-  plan.triangle_voxels = std::max(plan.halo_voxels, voxels(settings.cells.size_m, voxel_m) + 1);
+  const CellOptions cells =
+      cell_options(settings, plan.origin, plan.frame, plan.bounds.lower.z, plan.has_ground);
+  plan.triangle_voxels = std::max(plan.halo_voxels, cell_halo_columns(cells));
   plan.tile_blocks = std::max(1, sizes.tile_blocks);
   while (sizes.tile_blocks == 0) {
     const double edge = 2.0 * plan.tile_blocks * plan.block_voxels;
@@ -162,6 +165,10 @@ std::filesystem::path preparation_folder(const RunPaths& run) {
 
 std::filesystem::path part_file(const RunPaths& run, const char* what, uint32_t part) {
   return preparation_folder(run) / what / std::to_string(part);
+}
+
+std::filesystem::path scene_file(const RunPaths& run) {
+  return preparation_folder(run) / "scene.h5";
 }
 
 void clear_preparation(const RunPaths& run) {

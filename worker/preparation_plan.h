@@ -69,6 +69,8 @@ std::filesystem::path preparation_folder(const RunPaths& run);
 /// A file of each part, in a folder for what it holds: of tiles "triangles", "surface", "space", "sides" and
 /// "cells", of blocks "occluders".
 std::filesystem::path part_file(const RunPaths& run, const char* what, uint32_t part);
+/// Scene and slices, from import to finish.
+std::filesystem::path scene_file(const RunPaths& run);
 /// Makes these folders anew, empty. \throw Error(input_output).
 void clear_preparation(const RunPaths& run);
 

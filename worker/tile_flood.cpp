@@ -17,10 +17,14 @@ class TileFlood {
       : run_(run), plan_(plan), tile_(tile), neighbours_(plan.neighbours(tile)) {}
 
   std::vector<uint32_t> run() {
+    read_neighbours();
+    // Named for nothing, as happens while neighbours are flooded at the same time. Also after a death between
+    // space and sides this holds: sides that are too old let more in.
+    const std::optional<TileSides> known = read_tile_sides(run_, plan_, tile_);
+    if (known && !more_flows_in(*known)) return growing(*known);
     bool changed = !has_tile_space(run_, tile_);
     SeedRegion region = changed ? start() : load_region(run_, plan_, plan_.tile(tile_));
     TileSides own = sides_of(region);
-    read_neighbours();
     for (;;) {
       changed |= let_in(region, own);
       if (changed) {
@@ -91,10 +95,6 @@ class TileFlood {
 
 std::vector<uint32_t> flood_tile(const RunPaths& run, const PreparationPlan& plan, uint32_t tile) {
   return TileFlood(run, plan, tile).run();
-}
-
-std::vector<uint32_t> flood_tile(const RunPaths& run, uint32_t tile) {
-  return flood_tile(run, read_plan(run), tile);
 }
 
 }  // namespace veduta

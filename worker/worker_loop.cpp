@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -15,7 +14,8 @@
 #include "scene/error.h"
 #include "scene/peak_memory.h"
 #include "worker/baker.h"
-#include "worker/prepare.h"
+#include "worker/occluder_file.h"
+#include "worker/preparation.h"
 #include "worker/protocol.h"
 
 namespace veduta {
@@ -64,31 +64,38 @@ class Worker {
                                       std::max(size_t{1}, request.at("threads").get<size_t>()));
     const auto began = std::chrono::steady_clock::now();
     reset_peak_memory();
-    json answer = done_part(run, request.at("stage").get<std::string>());
+    json answer = done_part(run, request.at("stage").get<std::string>(), request.at("part").get<uint32_t>());
     answer["stage"] = request.at("stage"), answer["part"] = request.at("part");
     answer["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     answer["peak_mb"] = peak_memory_mb();
     say(Verb::prepared, answer);
   }
 
-  /// The steps are not apart yet: all is done in the last one.
-  static json done_part(const RunPaths& run, const std::string& stage) {
+  static json done_part(const RunPaths& run, const std::string& stage, uint32_t part) {
+    const Settings settings = load_settings(run.settings());
     if (stage == name_of(Stage::import)) {
-      std::filesystem::create_directories(run.directory / "prepared.tmp");
-      return {{"tiles", 0}, {"blocks", 0}};
+      const PreparationSize size = import_city(run, settings);
+      return {{"tiles", size.tiles}, {"blocks", size.blocks}, {"notes", size.notes}};
     }
-    const Prepared prepared = prepare(load_settings(run.settings()));
-    write_prepared(run.directory, prepared);
-    const City& city = prepared.city;
-    return {{"cells", city.cells.size()},
-            {"objects", city.scene.objects.size()},
-            {"triangles", city.scene.triangle_count()},
-            {"notes", prepared.notes}};
+    if (stage == name_of(Stage::flood)) return {{"again", flood_tile(run, part)}};
+    if (stage == name_of(Stage::cells)) return {{"cells", make_tile_cells(run, settings, part)}};
+    if (stage == name_of(Stage::shrink)) {
+      shrink_block(run, settings, part);
+      return json::object();
+    }
+    if (stage != name_of(Stage::finish))
+      throw Error(ExitStatus::defect, "worker: there is no stage '" + stage + "'");
+    const PreparedSize size = finish_preparation(run, settings);
+    return {{"cells", size.cells},
+            {"objects", size.objects},
+            {"triangles", size.triangles},
+            {"notes", size.notes}};
   }
 
   void open_city(const std::string& directory) {
-    baker_.emplace(read_city(RunPaths{directory}.city()), read_occluders(directory),
-                   load_settings(RunPaths{directory}.settings()), gpu_);
+    const RunPaths run{directory};
+    baker_.emplace(read_city(run.city()), read_occluder_file(run.occluders()), load_settings(run.settings()),
+                   gpu_);
     say(Verb::opened, {{"renderer", baker_->renderer()}, {"cells", baker_->cell_count()}});
   }
 

@@ -1,17 +1,16 @@
 // Toy cities through the whole worker: "A must not see B", "C must be seen", and rays that agree.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <optional>
 
 #include "scene/error.h"
+#include "tests/pvs/small_city.h"
 #include "verify/verify.h"
 #include "worker/baker.h"
-#include "worker/prepare.h"
+#include "worker/occluder_file.h"
+#include "worker/preparation.h"
 
 namespace veduta {
 namespace {
@@ -20,18 +19,10 @@ namespace {
 class ToyCity {
  public:
   ToyCity() {
-    file_ = std::filesystem::temp_directory_path() / ("veduta_toy_" + std::to_string(getpid()) + ".obj");
-    settings_.scene.model = {file_.string()};
+    settings_.scene.model = {(directory_ / "city.obj").string()};
     settings_.cells.size_m = 4;
     settings_.occlusion.resolution = 256;
   }
-  ~ToyCity() {
-    std::error_code ignored;
-    std::filesystem::remove(file_, ignored);
-  }
-  ToyCity(const ToyCity&) = delete;
-  ToyCity& operator=(const ToyCity&) = delete;
-
   void add(const std::string& name, glm::dvec3 lower, glm::dvec3 upper) {
     text_ += "o " + name + "\n";
     for (int corner = 0; corner < 8; ++corner) {
@@ -59,12 +50,13 @@ class ToyCity {
 
   /// Bakes every cell. \return false when there is no EGL to bake with.
   bool bake() {
-    std::ofstream(file_) << text_;
-    Prepared prepared = prepare(settings_);
-    file_pvs_.city = prepared.city;
+    test::write_bytes(directory_ / "city.obj", text_);
+    const RunPaths run{directory_.path()};
+    prepare_all(run, settings_);
+    file_pvs_.city = read_city(run.city());
     file_pvs_.row_begin.push_back(0);
     try {
-      Baker baker(prepared.city, prepared.occluders, settings_, "software");
+      Baker baker(file_pvs_.city, read_occluder_file(run.occluders()), settings_, "software");
       for (uint32_t cell = 0; cell < baker.cell_count(); ++cell) {
         const CellRecord record = baker.bake(cell);
         file_pvs_.cell_row.push_back(cell);
@@ -106,7 +98,7 @@ class ToyCity {
   }
 
  private:
-  std::filesystem::path file_;
+  test::TemporaryDirectory directory_;
   std::string text_;
   int vertices_ = 0;
   Settings settings_;
