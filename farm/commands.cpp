@@ -74,6 +74,7 @@ int veduta_main(int argc, char** argv) {
   add_info(app, line);
   add_verify(app, line);
   add_import(app, line);
+  add_section(app, line);
   add_city(app, line);
   add_status(app, line);
   add_doctor(app, line);

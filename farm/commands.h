@@ -27,6 +27,7 @@ void add_import(CLI::App& app, CommandLine& line);
 void add_city(CLI::App& app, CommandLine& line);
 void add_status(CLI::App& app, CommandLine& line);
 void add_doctor(CLI::App& app, CommandLine& line);
+void add_section(CLI::App& app, CommandLine& line);
 
 /// The whole program. \return the exit status; errors have been printed, one line each.
 int veduta_main(int argc, char** argv);

@@ -3,26 +3,12 @@
 
 #include "pvs/pvs_file.h"
 #include "scene/import.h"
+#include "worker/import_options.h"
 #include "worker/preparation_plan.h"
 #include "worker/slices.h"
 #include "worker/tile_triangles.h"
 
 namespace veduta {
-namespace {
-
-ImportOptions import_options(const Settings& settings) {
-  ImportOptions options;
-  options.terrain_tile_m = settings.scene.terrain_tile_m;
-  if (settings.scene.up != "auto") options.up = settings.scene.up == "y" ? UpAxis::y : UpAxis::z;
-  options.unit_m = settings.scene.unit_m;
-  options.crs = settings.scene.crs;
-  options.height_field = settings.scene.height_field;
-  options.floors_field = settings.scene.floors_field;
-  options.floor_height_m = settings.scene.floor_height_m;
-  return options;
-}
-
-}  // namespace
 
 PreparationSize import_city(const RunPaths& run, const Settings& settings, const PartSizes& sizes) {
   ImportResult imported =

@@ -4,9 +4,11 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 
 #include "gl/egl_context.h"
 #include "scene/error.h"
+#include "worker/city_section.h"
 #include "worker/worker_loop.h"
 
 int main(int argc, char** argv) {
@@ -17,6 +19,13 @@ int main(int argc, char** argv) {
   app.add_option("--gpu", gpu, "EGL device: auto, software or a number")->capture_default_str();
   app.add_flag("--probe", probe,
                "Print one line per EGL device and the renderer that --gpu chooses, then leave");
+  std::filesystem::path config, picture;
+  veduta::SectionRequest section;
+  auto* const config_option =
+      app.add_option("--section", config, "Draw a square of this configuration's city, then leave");
+  app.add_option("--at", section.at, "Middle of the square")->needs(config_option)->delimiter(',');
+  app.add_option("--size", section.size_m, "Edge of the square, m")->needs(config_option);
+  app.add_option("--picture", picture, "The picture, SVG")->needs(config_option);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -24,6 +33,11 @@ int main(int argc, char** argv) {
   }
   std::signal(SIGPIPE, SIG_IGN);  // a shepherd that is gone shows as a write error
   try {
+    if (!config.empty()) {
+      const veduta::Settings settings = veduta::load_settings(config);
+      veduta::write_section(picture, veduta::city_section(settings, section));
+      return 0;
+    }
     if (!probe) {
       // Frames go to a private copy of standard output: whatever a driver prints there must not get between
       // them.
