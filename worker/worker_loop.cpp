@@ -1,10 +1,12 @@
 #include "worker/worker_loop.h"
 
+#include <malloc.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -22,6 +24,14 @@ namespace veduta {
 namespace {
 
 using nlohmann::json;
+
+/// On a network file system this host may go on for half a minute with what it knows of a folder, and miss
+/// files that other hosts have put there; to open the folder makes it ask.
+void see_what_others_wrote(const std::filesystem::path& directory) {
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, ignored))
+    if (entry.is_directory(ignored)) std::filesystem::directory_iterator(entry.path(), ignored);
+}
 
 class Worker {
  public:
@@ -64,6 +74,7 @@ class Worker {
                                       std::max(size_t{1}, request.at("threads").get<size_t>()));
     const auto began = std::chrono::steady_clock::now();
     reset_peak_memory();
+    see_what_others_wrote(run.directory / "prepared.tmp");
     json answer = done_part(run, request.at("stage").get<std::string>(), request.at("part").get<uint32_t>());
     answer["stage"] = request.at("stage"), answer["part"] = request.at("part");
     answer["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
@@ -75,6 +86,7 @@ class Worker {
     const Settings settings = load_settings(run.settings());
     if (stage == name_of(Stage::import)) {
       const PreparationSize size = import_city(run, settings);
+      malloc_trim(0);  // the whole city was in memory; the parts to come are small
       return {{"tiles", size.tiles}, {"blocks", size.blocks}, {"notes", size.notes}};
     }
     if (stage == name_of(Stage::flood)) return {{"again", flood_tile(run, part)}};
