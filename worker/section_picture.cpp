@@ -207,7 +207,7 @@ std::string draw_section(const SectionContent& content) {
   svg += "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
   svg += fmt::format("<text class=\"title\" x=\"{}\" y=\"{}\">{}</text>\n", margin_px, title_px,
                      escaped(content.title));
-  svg += draw_scale_bar(px_per_m, title_px);
+  svg += draw_scale_bar(px_per_m, legend_top + 50);
   svg += Drawing(content, 0, 1, 2, {margin_px, plan_top}, px_per_m).draw("plan");
   svg += Drawing(content, 0, 2, 1, {margin_px, section_top}, px_per_m).draw("section");
   return svg + draw_legend(content, legend_top) + "</svg>\n";
