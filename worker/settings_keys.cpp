@@ -197,7 +197,7 @@ const std::vector<Key>& settings_keys() {
       region_key(),
       whole("slices.max", 1, 127, false, "most slices per axis of an object",
             [](Settings& s) -> int& { return s.slices.max; }),
-      choice("shrink.method", {"planes", "sealed", "vertex"}, "how occluders are shrunk by the view-cell",
+      choice("shrink.method", {"planes", "sections", "sealed", "vertex"}, "how occluders are shrunk by the view-cell",
              [](Settings& s) -> std::string& { return s.shrink.method; }),
       choice("occlusion.method", {"panorama"}, "how hidden objects are found",
              [](Settings& s) -> std::string& { return s.occlusion.method; }),

@@ -5,6 +5,7 @@
 #include "scene/error.h"
 #include "worker/shrink_planes.h"
 #include "worker/shrink_sealed.h"
+#include "worker/shrink_sections.h"
 #include "worker/shrink_vertex.h"
 
 namespace veduta {
@@ -29,6 +30,7 @@ std::vector<RingWindow> ring_windows(const glm::dvec3& half_extent_m, int resolu
 std::unique_ptr<Shrinker> make_shrinker(const std::string& method) {
   if (method == "sealed") return std::make_unique<SealedShrinker>();
   if (method == "planes") return std::make_unique<PlanesShrinker>();
+  if (method == "sections") return std::make_unique<SectionsShrinker>();
   if (method == "vertex") return std::make_unique<VertexShrinker>();
   throw Error(ExitStatus::defect, "shrink.method: there is no method '" + method + "'");
 }

@@ -61,7 +61,7 @@ TEST_P(ShrinkMethod, GivesTheSameAgain) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, ShrinkMethod, testing::Values("sealed", "planes", "vertex"),
+INSTANTIATE_TEST_SUITE_P(Methods, ShrinkMethod, testing::Values("sealed", "planes", "sections", "vertex"),
                          [](const auto& method) { return std::string(method.param); });
 
 }  // namespace
