@@ -26,7 +26,7 @@ class Street {
     quad({-31, -23, 0}, {33, -23, 0}, {33, 27, 0}, {-31, 27, 0});
     for (int house = 0; house < 6; ++house) {
       const auto x = -25.0 + 7 * house;
-      box({x, -14, 0}, {x + 7, -4, 6 + house % 3});
+      box({x, -14, 0}, {x + 7, -4, 6.0 + house % 3});
     }
     out_ << "o hall\n";
     quad({-20, 6, 5}, {-2, 6, 5}, {-2, 18, 5}, {-20, 18, 5});
