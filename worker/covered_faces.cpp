@@ -72,7 +72,7 @@ double covered_area(const Wall& a, const Wall& b) {
 }  // namespace
 
 std::vector<uint8_t> covered_faces(const std::vector<glm::dvec3>& vertices,
-                                 const std::vector<glm::uvec3>& faces) {
+                                   const std::vector<glm::uvec3>& faces) {
   std::vector<Wall> walls;
   std::vector<uint32_t> order;
   for (const glm::uvec3& f : faces) {

@@ -10,6 +10,6 @@ namespace veduta {
 /// Which triangles lie wholly on others that face the opposite way, however these are cut: at a millimetre or
 /// less, but for a thousandth of their area. \return [F] 1 or 0.
 std::vector<uint8_t> covered_faces(const std::vector<glm::dvec3>& vertices,
-                                 const std::vector<glm::uvec3>& faces);
+                                   const std::vector<glm::uvec3>& faces);
 
 }  // namespace veduta
