@@ -9,18 +9,15 @@
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 
 #include "worker/clip.h"
+#include "worker/convex_hull.h"
 #include "worker/exposed_seeds.h"
 
 namespace veduta {
 namespace {
 
 enum class Cell : uint8_t { none, part, all };
-
-/// A convex polygon in the raster's plane, in seeds, counter-clockwise.
-using Hull = std::vector<glm::ivec2>;
 
 /// What of a triangle is exposed over one raster cell: the rectangle [u0, u1) x [v0, v1) that holds it, in
 /// grains.
@@ -29,33 +26,6 @@ struct RasterCell {
   int u0 = 0, u1 = 0, v0 = 0, v1 = 0;
   int hull = -1;  // of a part
 };
-
-int64_t cross(const glm::ivec2& o, const glm::ivec2& a, const glm::ivec2& b) {
-  return int64_t{a.x - o.x} * (b.y - o.y) - int64_t{a.y - o.y} * (b.x - o.x);
-}
-
-/// The convex hull of points (Andrew's monotone chain).
-Hull hull_of(std::vector<glm::ivec2> points) {
-  std::sort(points.begin(), points.end(),
-            [](const glm::ivec2& a, const glm::ivec2& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
-  Hull hull;
-  for (const bool lower : {true, false}) {
-    const size_t start = hull.size();
-    for (size_t n = 0; n < points.size(); ++n) {
-      const glm::ivec2& p = lower ? points[n] : points[points.size() - 1 - n];
-      while (hull.size() >= start + 2 && cross(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-  }
-  return hull;
-}
-
-double area(const Hull& hull) {
-  double twice = 0;
-  for (size_t n = 2; n < hull.size(); ++n) twice += static_cast<double>(cross(hull[0], hull[n - 1], hull[n]));
-  return 0.5 * twice;
-}
 
 class Exposer {
  public:
