@@ -74,6 +74,7 @@ GridFrame make_frame(const Box& bounds, double size_m, const FrameFits& fits) {
   frame.aside_m = aside_of_multiples * size_m;
   frame.i0 = static_cast<int>(first(0, size_m)), frame.nx = static_cast<int>(extent(0, size_m));
   frame.j0 = static_cast<int>(first(1, size_m)), frame.ny = static_cast<int>(extent(1, size_m));
+  frame.lowest_m = bounds.lower.z;
   frame.k0 = static_cast<int>(first(2, size_m)), frame.nz = static_cast<int>(extent(2, size_m));
   return frame;
 }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "scene/box.h"
@@ -18,6 +19,9 @@ struct GridFrame {
   double aside_m = 0;  ///< how far the planes lie beside the whole multiples of the size
   int i0 = 0, j0 = 0, k0 = 0;
   int nx = 0, ny = 0, nz = 0;
+  /// m: what lies below is sealed, since nobody looks from underneath (thesis fig. 4.16): the lowest z of the
+  /// scene
+  double lowest_m = -std::numeric_limits<double>::infinity();
 
   double x(int i) const { return (i0 + i) * size_m - aside_m; }  ///< m, relative to the scene origin
   double y(int j) const { return (j0 + j) * size_m - aside_m; }

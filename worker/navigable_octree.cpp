@@ -118,7 +118,9 @@ OctreeForest navigable_forest(const CellSpace& space, const ColumnRange& core,
 
 OctreeForest surface_forest(const SeedRegion& region, const ColumnRange& core) {
   return make_forest(region.frame(), core, 0, region.frame().nz - 1, [&](int i, int j, int first) {
-    return column_word(*region.occupied, i, j, first, false);
+    const uint64_t word = column_word(*region.occupied, i, j, first, false);
+    if (first > 0 || first <= -64 || (word >> -first & 1) == 0 || region.surface_in(i, j, 0)) return word;
+    return word & ~(uint64_t{1} << -first);  // occupied only because it reaches below the scene
   });
 }
 

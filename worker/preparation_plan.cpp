@@ -226,6 +226,7 @@ PreparationPlan read_plan(const RunPaths& run) {
     plan.axes = {axes[0], axes[1], axes[2]};
     const auto b = text.at("bounds").get<std::array<float, 6>>();
     plan.bounds = {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
+    f.lowest_m = plan.bounds.lower.z;
     text.at("origin").get_to(plan.origin), text.at("crs").get_to(plan.crs);
     text.at("has_ground").get_to(plan.has_ground), text.at("lowest_eye_m").get_to(plan.lowest_eye_m);
     text.at("block_voxels").get_to(plan.block_voxels), text.at("halo_voxels").get_to(plan.halo_voxels);

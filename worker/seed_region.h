@@ -13,14 +13,17 @@ namespace veduta {
 /// that a surface touches, the fill goes by seeds. What lies below the frame is sealed, what lies beside and
 /// above it is not known.
 struct SeedRegion {
-  std::unique_ptr<const BitGrid> occupied;  ///< voxels that a triangle touches; the bricks refer to it
-  BrickGrid touched;                        ///< seeds of occupied voxels that a triangle touches
+  std::unique_ptr<const BitGrid> occupied;  ///< voxels with touched seeds; the bricks refer to it
+  BrickGrid touched;                        ///< seeds that a triangle touches, or that lie below the scene
   BrickGrid reached;                        ///< seeds of occupied voxels that the fill reached
   BitGrid free;                             ///< voxels without a surface that the fill reached
 
   const GridFrame& frame() const { return free.frame(); }
   /// The frame of the seeds: four along each edge of a voxel.
   GridFrame seed_frame() const;
+  /// Does a surface pass the voxel? Those that are occupied only because they reach below the scene do not
+  /// count.
+  bool surface_in(int i, int j, int k) const;
 };
 
 /// The seed test and the flood fill of a part of a city, in memory: what can be reached from above without

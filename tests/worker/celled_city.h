@@ -21,7 +21,10 @@ inline SeedRegion crop(const SeedRegion& whole, int i0, int i1, int j0, int j1) 
       std::copy_n(whole.occupied->column(i0 + i, j0 + j), free.words(), occupied->column(i, j));
     }
   }
-  BrickGrid touched(*occupied, 0), reached(*occupied, 0);  // cells do not ask for seeds
+  BrickGrid touched(*occupied, 0), reached(*occupied, 0);  // what the fill reached by seeds is not asked for
+  each_voxel(free.frame(), [&](int i, int j, int k) {
+    if (occupied->get(i, j, k)) touched.at(i, j, k) = whole.touched.at(i0 + i, j0 + j, k);
+  });
   return {std::move(occupied), std::move(touched), std::move(reached), std::move(free)};
 }
 

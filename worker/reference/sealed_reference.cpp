@@ -62,6 +62,13 @@ BitGrid touched_seeds(const std::vector<PlacedTriangle>& triangles, const GridFr
   return touched;
 }
 
+/// How many layers of seeds lie below the scene: they are sealed.
+int seeds_below(const Scene& scene, const GridFrame& seeds) {
+  int layers = 0;
+  while (seeds.z(layers + 1) <= scene.bounds().lower.z) ++layers;
+  return layers;
+}
+
 BitGrid reached_of(const SealedBlock& block) {
   const GridFrame& coarse = block.region.frame();
   BitGrid reached(block.region.seed_frame());
@@ -157,7 +164,8 @@ GridFrame seeds_of(const Scene& scene, double seed_size_m) {
 }  // namespace
 
 SealedReference::SealedReference(const Scene& scene, double seed_size_m)
-    : reached_(flood_fill(touched_seeds(all_triangles(scene), seeds_of(scene, seed_size_m)), 0)),
+    : reached_(flood_fill(touched_seeds(all_triangles(scene), seeds_of(scene, seed_size_m)),
+                          seeds_below(scene, seeds_of(scene, seed_size_m)))),
       beside_(beside(reached_)) {
   find_exposed(all_triangles(scene));
 }
