@@ -55,48 +55,6 @@ class PolygonAxes {
   std::vector<Axis> axes_;
 };
 
-/// The lowest terrain near a place: what does not stand out above it hides nothing but the ground itself. A
-/// hill does stand out above its foot.
-class LowestGround {
- public:
-  LowestGround(const SealedBlock& block, double otherwise_m)
-      : frame_(block.region.frame()), otherwise_m_(otherwise_m) {
-    nx_ = static_cast<int>(frame_.nx * frame_.size_m / cell_m) + 1;
-    ny_ = static_cast<int>(frame_.ny * frame_.size_m / cell_m) + 1;
-    lowest_.assign(static_cast<size_t>(nx_) * ny_, unknown);
-    for (const PlacedTriangle& t : block.triangles) {
-      if (t.kind != Kind::terrain) continue;
-      Box box;
-      for (const glm::vec3& corner : t.corner) box.extend(corner);
-      for (int j = cell(box.lower.y, frame_.y(0), ny_); j <= cell(box.upper.y, frame_.y(0), ny_); ++j)
-        for (int i = cell(box.lower.x, frame_.x(0), nx_); i <= cell(box.upper.x, frame_.x(0), nx_); ++i) {
-          float& lowest = lowest_[static_cast<size_t>(j) * nx_ + i];
-          lowest = std::min(lowest, box.lower.z);
-        }
-    }
-  }
-
-  double at(const glm::dvec3& p) const {
-    float lowest = unknown;
-    const int ci = cell(p.x, frame_.x(0), nx_), cj = cell(p.y, frame_.y(0), ny_);
-    for (int j = std::max(cj - 2, 0); j <= std::min(cj + 2, ny_ - 1); ++j)
-      for (int i = std::max(ci - 2, 0); i <= std::min(ci + 2, nx_ - 1); ++i)
-        lowest = std::min(lowest, lowest_[static_cast<size_t>(j) * nx_ + i]);
-    return lowest == unknown ? otherwise_m_ : std::max<double>(lowest, otherwise_m_);
-  }
-
- private:
-  static constexpr double cell_m = 16;
-  static constexpr float unknown = std::numeric_limits<float>::max();
-  static int cell(double m, double origin, int count) {
-    return static_cast<int>(std::clamp((m - origin) / cell_m, 0.0, count - 1.0));
-  }
-  const GridFrame& frame_;
-  double otherwise_m_;
-  int nx_, ny_;
-  std::vector<float> lowest_;
-};
-
 }  // namespace
 
 /// A byte a sample: 0 outside, else 1 until it belongs to a component.
@@ -127,14 +85,59 @@ struct ErodedSamples::Lattice {
             frame.z(k(z)) + 0.5 * frame.size_m};
   }
 
+  /// The highest terrain under the samples of each column, that of the nearest column where there is none:
+  /// the earth itself is left out, since it hides little but itself and joins all houses to one. (A hill does
+  /// hide more.)
+  std::vector<double> ground_heights(double lowest_m) const {
+    std::vector<double> height(static_cast<size_t>(nx) * ny, -std::numeric_limits<double>::infinity());
+    const glm::dvec3 origin = at(0, 0, 0);
+    const double step = stride_xy * frame.size_m;
+    for (const PlacedTriangle& t : block.triangles) {
+      if (t.kind != Kind::terrain) continue;
+      const glm::dvec3 a = t.corner[0], ab = glm::dvec3(t.corner[1]) - a, ac = glm::dvec3(t.corner[2]) - a;
+      const double area = ab.x * ac.y - ab.y * ac.x;
+      if (std::abs(area) < 1e-9) continue;  // a side: the ground above it is another triangle's
+      Box box;
+      for (const glm::vec3& corner : t.corner) box.extend(corner);
+      const auto number = [&](double m, double from, int count) {
+        return static_cast<int>(std::clamp((m - from) / step, -1.0, static_cast<double>(count)));
+      };
+      for (int y = std::max(number(box.lower.y, origin.y, ny), 0);
+           y <= std::min(number(box.upper.y, origin.y, ny), ny - 1); ++y) {
+        for (int x = std::max(number(box.lower.x, origin.x, nx), 0);
+             x <= std::min(number(box.upper.x, origin.x, nx), nx - 1); ++x) {
+          const glm::dvec3 p = at(x, y, 0) - a;
+          const double u = (p.x * ac.y - p.y * ac.x) / area, v = (ab.x * p.y - ab.y * p.x) / area;
+          if (u < -1e-6 || v < -1e-6 || u + v > 1 + 1e-6) continue;
+          double& highest = height[static_cast<size_t>(y) * nx + x];
+          highest = std::max(highest, a.z + u * ab.z + v * ac.z);
+        }
+      }
+    }
+    std::vector<int> queue;
+    for (int c = 0; c < nx * ny; ++c) {
+      if (std::isfinite(height[c])) queue.push_back(c);
+    }
+    if (queue.empty()) return std::vector<double>(height.size(), lowest_m);
+    for (size_t n = 0; n < queue.size(); ++n) {
+      const int x = queue[n] % nx, y = queue[n] / nx;
+      for (const auto& [a, b] : {std::pair{x - 1, y}, {x + 1, y}, {x, y - 1}, {x, y + 1}}) {
+        if (a < 0 || b < 0 || a >= nx || b >= ny || std::isfinite(height[b * nx + a])) continue;
+        height[b * nx + a] = height[queue[n]], queue.push_back(b * nx + a);
+      }
+    }
+    for (double& h : height) h = std::max(h, lowest_m);
+    return height;
+  }
+
   /// Sealed beyond doubt: what is close to free space is left out, within the window of which a surface lies
   /// anyway.
   void take_sealed(double lowest_m) {
-    const LowestGround ground(block, lowest_m);
+    const std::vector<double> ground = ground_heights(lowest_m);
     const BitGrid sealed = sealed_voxels(block.region);
     for (int y = 0; y < ny; ++y) {
       for (int x = 0; x < nx; ++x) {
-        const double ground_m = ground.at(at(x, y, 0));
+        const double ground_m = ground[static_cast<size_t>(y) * nx + x];
         for (int z = 0; z < nz; ++z) {
           const int a = i(x), b = j(y), c = k(z);
           in[index(x, y, z)] = frame.z(c) >= ground_m && sealed.get(a, b, c);
