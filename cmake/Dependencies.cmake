@@ -23,3 +23,13 @@ pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)  # [libtom
 pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)      # [libepoxy-dev]
 pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)          # [libegl-dev]
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash) # [libxxhash-dev]
+
+# Not needed: one benchmark compares our grid with it, and is built where it is found [libopenvdb-dev]. Its own
+# FindOpenVDB.cmake wants Boost.Iostreams, which the benchmark does not use.
+find_path(OPENVDB_INCLUDE_DIR openvdb/openvdb.h)
+find_library(OPENVDB_LIBRARY openvdb)
+if(OPENVDB_INCLUDE_DIR AND OPENVDB_LIBRARY)
+  add_library(OpenVDB UNKNOWN IMPORTED)
+  set_target_properties(OpenVDB PROPERTIES
+    IMPORTED_LOCATION ${OPENVDB_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${OPENVDB_INCLUDE_DIR})
+endif()
