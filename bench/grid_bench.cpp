@@ -100,7 +100,7 @@ void expect_equal(uint64_t theirs, uint64_t ours, const std::string& what) {
                              std::to_string(theirs) + " in OpenVDB's");
 }
 
-/// One run of both.
+/// One run of both: the steps of make_seed_region, without the floor that it puts below the scene.
 Json measure(const Job& job, Clock& our_clock, Clock& their_clock) {
   const GridFrame& frame = job.frame;
   auto occupied = std::make_unique<const BitGrid>(
