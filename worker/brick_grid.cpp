@@ -54,7 +54,7 @@ size_t BrickGrid::index(int i, int j, int k) const {
 BrickGrid seed_bricks(const std::vector<PlacedTriangle>& triangles, const BitGrid& occupied) {
   const GridFrame fine = fine_frame(occupied.frame());
   BrickGrid bricks(occupied, 0);
-  visit_touched_columns(triangles, fine, [&](int i, int j, int k0, int k1, const TouchedColumn&) {
+  visit_touched_columns(triangles, fine, [&](int i, int j, int k0, int k1) {
     const int ci = i / 4, cj = j / 4;
     for (int ck = k0 / 4; ck <= k1 / 4; ++ck) {
       if (!occupied.get(ci, cj, ck)) continue;  // only touched by the margin of the fine test

@@ -3,8 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "worker/clip.h"
 
@@ -30,10 +28,6 @@ void clip_to_row(const ClippedTriangle& triangle, const GridFrame& frame, int j,
 
 }  // namespace
 
-SeedGrid::SeedGrid(const GridFrame& frame)
-    : occupied(frame),
-      ground(static_cast<size_t>(frame.nx) * frame.ny, std::numeric_limits<float>::quiet_NaN()) {}
-
 void visit_touched_columns(const std::vector<PlacedTriangle>& triangles, const GridFrame& frame,
                            const ColumnVisitor& visit) {
   const double margin = frame.size_m * 1e-6;  // more than doubles round
@@ -53,11 +47,10 @@ void visit_touched_columns(const std::vector<PlacedTriangle>& triangles, const G
   tbb::parallel_for(0, bands, [&](int b) {
     for (const uint32_t t : touching[b]) {
       const PlacedTriangle& triangle = triangles[t];
-      const bool terrain = triangle.kind == Kind::terrain;
       const auto [first, last] = rows(triangle);
       for (int j = std::max(first, b * band_rows); j <= std::min(last, (b + 1) * band_rows - 1); ++j) {
         clip_to_row(uncut(triangle.corner), frame, j, margin, [&](int i, double z0, double z1) {
-          visit(i, j, frame.layer(z0 - margin), frame.layer(z1 + margin), {terrain, static_cast<float>(z1)});
+          visit(i, j, frame.layer(z0 - margin), frame.layer(z1 + margin));
         });
       }
     }
@@ -65,22 +58,14 @@ void visit_touched_columns(const std::vector<PlacedTriangle>& triangles, const G
 }
 
 SeedGrid seed_test(const std::vector<PlacedTriangle>& triangles, const GridFrame& frame) {
-  SeedGrid grid(frame);
-  visit_touched_columns(triangles, frame, [&](int i, int j, int k0, int k1, const TouchedColumn& touched) {
-    grid.occupied.set_run(i, j, k0, k1);
-    if (!touched.terrain) return;
-    float& ground = grid.ground[static_cast<size_t>(j) * frame.nx + i];
-    ground = std::fmax(ground, touched.highest_m);
-  });
+  SeedGrid grid{BitGrid(frame)};
+  visit_touched_columns(triangles, frame,
+                        [&](int i, int j, int k0, int k1) { grid.occupied.set_run(i, j, k0, k1); });
   return grid;
 }
 
 SeedGrid seed_test(const Scene& scene, const GridFrame& frame) {
-  SeedGrid grid = seed_test(all_triangles(scene), frame);
-  const bool any_terrain = std::any_of(scene.objects.begin(), scene.objects.end(),
-                                       [](const Object& o) { return o.kind == Kind::terrain; });
-  if (!any_terrain) std::fill(grid.ground.begin(), grid.ground.end(), scene.bounds().lower.z);
-  return grid;
+  return seed_test(all_triangles(scene), frame);
 }
 
 }  // namespace veduta

@@ -8,11 +8,9 @@
 
 namespace veduta {
 
-/// What the seed test leaves: the voxels that a triangle touches, and the ground under every column.
+/// What the seed test leaves: the voxels that a triangle touches.
 struct SeedGrid {
   BitGrid occupied;
-  std::vector<float> ground;  ///< [ny * nx] highest terrain in the column, m; NaN where there is none
-  explicit SeedGrid(const GridFrame& frame);
 };
 
 /// Marks every voxel that a closed triangle touches. Exact up to a margin of a millionth of a voxel, which
@@ -22,19 +20,13 @@ struct SeedGrid {
 /// run: O(voxels touched / 64).
 SeedGrid seed_test(const std::vector<PlacedTriangle>& triangles, const GridFrame& frame);
 
-/// Of a whole scene. One without terrain has its ground at its lowest z.
+/// Of a whole scene.
 SeedGrid seed_test(const Scene& scene, const GridFrame& frame);
-
-/// What a triangle is in a column that it touches.
-struct TouchedColumn {
-  bool terrain = false;
-  float highest_m = 0;
-};
 
 /// Calls visit for each triangle and each column (i, j) of the frame that it touches, with the layers [k0,
 /// k1] that it touches there. Runs in parallel: calls for the same group of 64 rows come one after the other,
 /// others at the same time.
-using ColumnVisitor = std::function<void(int i, int j, int k0, int k1, const TouchedColumn& touched)>;
+using ColumnVisitor = std::function<void(int i, int j, int k0, int k1)>;
 void visit_touched_columns(const std::vector<PlacedTriangle>& triangles, const GridFrame& frame,
                            const ColumnVisitor& visit);
 

@@ -79,37 +79,5 @@ TEST(SeedTest, ManyRowsAndTallColumns) {
   expect_between_references(mesh.scene, make_frame(mesh.scene.bounds(), 0.5));
 }
 
-TEST(SeedTest, GroundIsTheHighestTerrainInTheColumn) {
-  Mesh mesh;
-  mesh.object(Kind::terrain);  // rises 1 in 2 along x, from x = 0 to 4, and below it a second sheet
-  mesh.quad({0, 0, 0}, {4, 0, 2}, {4, 3, 2}, {0, 3, 0});
-  mesh.quad({0, 0, -1}, {4, 0, -1}, {4, 3, -1}, {0, 3, -1});
-  mesh.object(Kind::building);
-  mesh.box({{1, 1, 0}, {2, 2, 5}});
-  mesh.object(Kind::building);
-  mesh.box({{6, 1, 0}, {7, 2, 5}});
-  const GridFrame f = make_frame(mesh.scene.bounds(), 0.25);
-  const SeedGrid grid = seed_test(mesh.scene, f);
-  for (int j = 0; j < f.ny; ++j) {
-    for (int i = 0; i < f.nx; ++i) {
-      const float ground = grid.ground[static_cast<size_t>(j) * f.nx + i];
-      const double x0 = f.x(i), x1 = f.x(i + 1), y0 = f.y(j), y1 = f.y(j + 1);
-      const bool above = x1 >= 0 && x0 <= 4 && y1 >= 0 && y0 <= 3;
-      ASSERT_EQ(std::isnan(ground), !above) << x0 << ' ' << y0;
-      if (above) {
-        ASSERT_NEAR(ground, 0.5 * std::min(x1, 4.0), 1e-3) << x0 << ' ' << y0;
-      }
-    }
-  }
-}
-
-TEST(SeedTest, WithoutTerrainTheGroundIsTheLowestPoint) {
-  Mesh mesh;
-  mesh.object();
-  mesh.box({{0, 0, -1.5f}, {2, 2, 5}});
-  const GridFrame f = make_frame(mesh.scene.bounds(), 0.5);
-  for (const float ground : seed_test(mesh.scene, f).ground) ASSERT_EQ(ground, -1.5f);
-}
-
 }  // namespace
 }  // namespace veduta
