@@ -44,7 +44,7 @@ table=$out/table.md
 # A square of 60 m in the middle of each city, parts of 2.5 m.
 bake_row() { # NUMBER METHOD
   local box config run report
-  box=$("$bin/veduta" import "${models[$1]}" --info --json |
+  box=$("$bin/veduta" import "${models[$1]}" --info --json | tr -d '\n ' |
     sed -n 's/.*"lower": *\[\([^]]*\)\].*"upper": *\[\([^]]*\)\].*/\1,\2/p' |
     awk -F, '{x=($1+$4)/2; y=($2+$5)/2; printf "%.1f, %.1f, %.1f, %.1f", x-30, y-30, x+30, y+30}')
   config=$out/$1_$2.toml run=$out/$1_$2 report=$out/$1_$2.verify.json
