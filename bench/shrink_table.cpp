@@ -10,6 +10,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double least_volume_m3 = 100;  // shares of less say nothing
+
 std::string percent(double share) {
   return fmt::format("{:.1f} %", 100 * share);
 }
@@ -47,6 +49,10 @@ void add_alone(const Json& city, std::string& text) {
                         window_name(city.at("windows").at(w)), alone.at("buildings").get<size_t>(), together,
                         window.at("eroded_alone_m3").get<double>(),
                         percent(share_of(window["eroded_alone_m3"].get<double>(), together)));
+    if (together < least_volume_m3) {
+      text += " – |\n";
+      continue;
+    }
     for (const auto& [name, method] : window.at("methods").items()) {
       text += fmt::format(" `{}` {} / {}", name,
                           percent(share_of(method.at("kept_together_m3").get<double>(), together)),
@@ -66,9 +72,10 @@ void add_exact(const Json& city, std::string& text) {
                     window_name(city.at("windows").at(w)), exact.at("done").get<size_t>(),
                     exact.at("tried").get<size_t>(), window.at("exact_m3").get<double>(),
                     window.at("sampled_m3").get<double>(), window.at("sampled_error_m3").get<double>());
+    const bool enough = window.at("exact_m3").get<double>() >= least_volume_m3;
     for (const auto& [name, share] : window.at("kept_of_exact").items())
-      text += fmt::format(" `{}` {}", name, percent(share.get<double>()));
-    text += " |\n";
+      text += enough ? fmt::format(" `{}` {}", name, percent(share.get<double>())) : "";
+    text += enough ? " |\n" : " – |\n";
   }
 }
 
@@ -104,7 +111,7 @@ std::string shrink_table(const std::vector<std::filesystem::path>& files) {
       "|\n|---|---|---|---|---|---|\n";
   for (const Json& city : cities) add_alone(city, text);
   text +=
-      "\nSingle buildings in exact arithmetic, where that finishes (up to 60 facets):\n\n| city | window, "
+      "\nSingle buildings in exact arithmetic, where that finishes:\n\n| city | window, "
       "half | "
       "buildings | S exact, m³ | S by points, m³ | kept of exact |\n|---|---|---|---|---|---|\n";
   for (const Json& city : cities) add_exact(city, text);
