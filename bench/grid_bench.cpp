@@ -104,7 +104,7 @@ void expect_equal(uint64_t theirs, uint64_t ours, const std::string& what) {
 Json measure(const Job& job, Clock& our_clock, Clock& their_clock) {
   const GridFrame& frame = job.frame;
   auto occupied = std::make_unique<const BitGrid>(
-      our_clock.time("seed_test", [&] { return seed_test(job.triangles, frame).occupied; }));
+      our_clock.time("seed_test", [&] { return seed_test(job.triangles, frame); }));
   BrickGrid touched = our_clock.time("seed_bricks", [&] { return seed_bricks(job.triangles, *occupied); });
   BitGrid free = our_clock.time("flood_fill", [&] { return flood_fill(*occupied); });
   const BitGrid free_before_seeds = free;

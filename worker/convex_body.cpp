@@ -1,6 +1,5 @@
 #include "worker/convex_body.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace veduta {
@@ -75,7 +74,6 @@ void add_body(const std::vector<HalfSpace>& sides, const glm::dvec3& window, con
   const double reach = 2 * glm::length(glm::dvec3(within.upper) - center) + 1;
   Weld weld;
   std::vector<Polygon> faces;
-  double largest = 0;
   for (size_t s = 0; s < moved.size(); ++s) {
     Polygon face = square(moved[s], center, reach);
     for (size_t t = 0; t < moved.size() && face.size() >= 3; ++t) {
@@ -83,7 +81,6 @@ void add_body(const std::vector<HalfSpace>& sides, const glm::dvec3& window, con
     }
     face = tidied(face, weld);
     if (face.size() < 3 || area(face) < least_m * least_m) continue;
-    largest = std::max(largest, area(face));
     faces.push_back(std::move(face));
   }
   if (faces.size() < 4) return;

@@ -15,7 +15,10 @@ namespace veduta {
 /// ones (over the six neighbours) make a component: a house, or a row of houses.
 class ErodedSamples {
  public:
+  /// The lattice is a whole number of voxels, about a quarter of the window across and half of it upwards.
   /// \param window_m  w
+  /// \param lowest_m  samples below are left out, and those below the terrain: to cover less errs towards
+  /// visible
   ErodedSamples(const SealedBlock& block, const Obstacles& obstacles, const glm::dvec3& window_m,
                 double lowest_m);
 
@@ -25,6 +28,7 @@ class ErodedSamples {
   };
   /// The samples of each component, deepest first.
   const std::vector<std::vector<Sample>>& components() const { return components_; }
+  /// Edges of the box that a sample stands for.
   const glm::dvec3& step_m() const { return step_m_; }
 
  private:

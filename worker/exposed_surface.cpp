@@ -3,8 +3,6 @@
 // exposed cells become pieces, so a wall with nothing before it stays whole.
 #include "worker/exposed_surface.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>

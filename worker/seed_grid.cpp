@@ -57,14 +57,14 @@ void visit_touched_columns(const std::vector<PlacedTriangle>& triangles, const G
   });
 }
 
-SeedGrid seed_test(const std::vector<PlacedTriangle>& triangles, const GridFrame& frame) {
-  SeedGrid grid{BitGrid(frame)};
+BitGrid seed_test(const std::vector<PlacedTriangle>& triangles, const GridFrame& frame) {
+  BitGrid occupied(frame);
   visit_touched_columns(triangles, frame,
-                        [&](int i, int j, int k0, int k1) { grid.occupied.set_run(i, j, k0, k1); });
-  return grid;
+                        [&](int i, int j, int k0, int k1) { occupied.set_run(i, j, k0, k1); });
+  return occupied;
 }
 
-SeedGrid seed_test(const Scene& scene, const GridFrame& frame) {
+BitGrid seed_test(const Scene& scene, const GridFrame& frame) {
   return seed_test(all_triangles(scene), frame);
 }
 

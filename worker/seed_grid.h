@@ -8,20 +8,15 @@
 
 namespace veduta {
 
-/// What the seed test leaves: the voxels that a triangle touches.
-struct SeedGrid {
-  BitGrid occupied;
-};
-
 /// Marks every voxel that a closed triangle touches. Exact up to a margin of a millionth of a voxel, which
 /// errs towards occupied. Triangles may reach out of the frame, and each voxel's answer depends on its place
 /// in the lattice alone. The thesis tests all pairs of triangles and cells and calls it slow (§7.2); here
 /// each triangle is clipped to the columns that its bounds cover, and the z-range of what is left is set as a
 /// run: O(voxels touched / 64).
-SeedGrid seed_test(const std::vector<PlacedTriangle>& triangles, const GridFrame& frame);
+BitGrid seed_test(const std::vector<PlacedTriangle>& triangles, const GridFrame& frame);
 
 /// Of a whole scene.
-SeedGrid seed_test(const Scene& scene, const GridFrame& frame);
+BitGrid seed_test(const Scene& scene, const GridFrame& frame);
 
 /// Calls visit for each triangle and each column (i, j) of the frame that it touches, with the layers [k0,
 /// k1] that it touches there. Runs in parallel: calls for the same group of 64 rows come one after the other,

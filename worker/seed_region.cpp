@@ -32,7 +32,7 @@ bool SeedRegion::surface_in(int i, int j, int k) const {
 }
 
 SeedRegion make_seed_region(const std::vector<PlacedTriangle>& triangles, const GridFrame& frame) {
-  BitGrid surfaces = seed_test(triangles, frame).occupied;
+  BitGrid surfaces = seed_test(triangles, frame);
   const Brick below = below_scene(frame);
   const auto each_column = [&](const auto& visit) {
     for (int j = 0; below != 0 && j < frame.ny; ++j)

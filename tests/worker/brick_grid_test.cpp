@@ -57,7 +57,7 @@ TEST(SeedBricks, AreTheSeedTestAtTheSizeOfASeed) {
     }
     const GridFrame coarse = make_frame(mesh.scene.bounds(), 0.5);
     const GridFrame fine = fine_frame(coarse);
-    const BitGrid occupied = seed_test(mesh.scene, coarse).occupied;
+    const BitGrid occupied = seed_test(mesh.scene, coarse);
     const BrickGrid bricks = seed_bricks(all_triangles(mesh.scene), occupied);
     const BitGrid least = reference::seed_test(mesh.scene, fine, 0);
     const BitGrid most = reference::seed_test(mesh.scene, fine, 1e-5 * fine.size_m);

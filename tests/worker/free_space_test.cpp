@@ -24,7 +24,7 @@ BitGrid random_grid(Random& random, int nx, int ny, int nz, double density, bool
 }
 
 BitGrid free_of(const Scene& scene, double size_m) {
-  return flood_fill(seed_test(scene, make_frame(scene.bounds(), size_m)).occupied);
+  return flood_fill(seed_test(scene, make_frame(scene.bounds(), size_m)));
 }
 
 bool free_at(const BitGrid& free, double x, double y, double z) {

@@ -79,12 +79,11 @@ TEST(Instances, PrepareAsIfWrittenOut) {
     EXPECT_EQ(a.boxes, b.boxes);
 
     const GridFrame frame = make_frame(flat.scene.bounds(), 0.5);
-    const SeedGrid grid = seed_test(placed.scene, frame), reference = seed_test(flat.scene, frame);
+    const BitGrid grid = seed_test(placed.scene, frame), reference = seed_test(flat.scene, frame);
     for (int j = 0; j < frame.ny; ++j)
       for (int i = 0; i < frame.nx; ++i)
-        for (int w = 0; w < grid.occupied.words(); ++w)
-          ASSERT_EQ(grid.occupied.column(i, j)[w], reference.occupied.column(i, j)[w]);
-    EXPECT_GT(grid.occupied.count(), 1000u);
+        for (int w = 0; w < grid.words(); ++w) ASSERT_EQ(grid.column(i, j)[w], reference.column(i, j)[w]);
+    EXPECT_GT(grid.count(), 1000u);
   }
   std::filesystem::remove_all(name);
 }

@@ -15,7 +15,7 @@ const Box room{{-2, -2, 0}, {2, 2, 3}};
 
 /// Every voxel that a triangle touches is set; nothing is set that none comes within 1e-5 voxels of.
 void expect_between_references(const Scene& scene, const GridFrame& frame) {
-  const BitGrid fast = seed_test(scene, frame).occupied;
+  const BitGrid fast = seed_test(scene, frame);
   const BitGrid least = reference::seed_test(scene, frame, 0);
   const BitGrid most = reference::seed_test(scene, frame, 1e-5 * frame.size_m);
   int missing = 0, excess = 0;
