@@ -88,7 +88,7 @@ SealedBlock City::alone(uint32_t object) const {
 double City::halo_m() const {
   double widest = 0;
   for (const glm::dvec3& e : job_.request.half_extents_m) {
-    const double h = ring_windows(e, job_.request.resolution, job_.request.reach_m).back().h_m;
+    const double h = job_.request.rings(e).back().h_m;
     widest = std::max({widest, e.x + h, e.y + h});
   }
   return 2 * widest + 2 * seeds_per_voxel * seed_size_m();

@@ -13,7 +13,7 @@ constexpr size_t most_exact_facets = 60;
 
 glm::dvec3 nearest_window(const Job& job, size_t window) {
   const glm::dvec3& e = job.request.half_extents_m[window];
-  return e + ring_windows(e, job.request.resolution, job.request.reach_m).front().h_m;
+  return e + job.request.rings(e).front().h_m;
 }
 
 }  // namespace

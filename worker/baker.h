@@ -8,7 +8,7 @@
 #include "gl/egl_context.h"
 #include "pvs/city.h"
 #include "pvs/shard.h"
-#include "worker/panorama.h"
+#include "worker/occlusion_method.h"
 #include "worker/settings.h"
 #include "worker/three_bytes.h"
 
@@ -17,27 +17,23 @@ namespace veduta {
 class Baker {
  public:
   /// Makes a GL context on the chosen device and loads the city into it.
-  Baker(City city, const std::vector<WindowOccluders>& occluders, const Settings& settings,
-        const std::string& gpu);
+  Baker(City city, std::vector<WindowOccluders> occluders, const Settings& settings, const std::string& gpu);
 
   uint32_t cell_count() const { return static_cast<uint32_t>(city_.cells.size()); }
   std::string renderer() const { return context_.renderer(); }
   const City& city() const { return city_; }
 
-  /// The row of a cell. Parts that no viewer can be in are left out; the same answer whatever was baked
-  /// before.
-  CellRecord bake(uint32_t cell);
+  /// The rows of cells, handed out in their order; the same whatever was baked before.
+  void bake(std::span<const uint32_t> cells, const std::function<void(const CellRecord&)>& done);
 
  private:
   City city_;
   Settings settings_;
   EglContext context_;
+  std::vector<WindowOccluders> occluders_;
   TriangleCounts counts_;
   SliceBoxes slice_boxes_;
-  std::unique_ptr<Panorama> panorama_;
+  std::unique_ptr<OcclusionMethod> method_;
 };
-
-/// The parts of a cell: subdivide x subdivide boxes of its full height.
-std::vector<Box> parts_of(const Box& cell, int subdivide);
 
 }  // namespace veduta

@@ -9,12 +9,6 @@ namespace {
 
 constexpr double rounding_m = 1e-3;  // half a float's step is less up to 16 km from the origin
 
-glm::dvec3 half_extent(const Settings& settings, int size_class, int parts) {
-  const double margin = settings.stereo.eye_margin_m + rounding_m;
-  const double horizontal = std::ldexp(settings.cells.size_m, size_class) / (2.0 * parts) + margin;
-  return {horizontal, horizontal, std::ldexp(settings.cells.height_m, size_class) / 2 + margin};
-}
-
 }  // namespace
 
 int size_classes(const Settings& settings) {
@@ -28,19 +22,17 @@ int size_class_of(const Settings& settings, const Box& cell) {
   return std::clamp(size_class, 0, size_classes(settings) - 1);
 }
 
-glm::dvec3 cell_half_extent(const Settings& settings, int size_class) {
-  return half_extent(settings, size_class, 1);
-}
-
-glm::dvec3 part_half_extent(const Settings& settings, int size_class) {
-  return half_extent(settings, size_class, settings.occlusion.subdivide);
+glm::dvec3 part_half_extent(const Settings& settings, int size_class, int parts) {
+  const double margin = settings.stereo.eye_margin_m + rounding_m;
+  const double horizontal = std::ldexp(settings.cells.size_m, size_class) / (2.0 * parts) + margin;
+  return {horizontal, horizontal, std::ldexp(settings.cells.height_m, size_class) / 2 + margin};
 }
 
 std::vector<glm::dvec3> window_half_extents(const Settings& settings) {
   std::vector<glm::dvec3> windows;
   for (int size_class = 0; size_class < size_classes(settings); ++size_class) {
-    windows.push_back(part_half_extent(settings, size_class));
-    if (settings.occlusion.subdivide > 1) windows.push_back(cell_half_extent(settings, size_class));
+    for (int parts = settings.occlusion.subdivide; parts >= 1; parts /= 2)
+      windows.push_back(part_half_extent(settings, size_class, parts));
   }
   return windows;
 }

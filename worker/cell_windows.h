@@ -17,13 +17,12 @@ int size_classes(const Settings& settings);
 /// The size class of a cell that was made with these settings.
 int size_class_of(const Settings& settings, const Box& cell);
 
-/// Half-extents, m, that hold every cell of a size class, and every one of its subdivide x subdivide parts of
-/// its full height. Eye margin included, and a millimetre for bounds that are rounded to float.
-glm::dvec3 cell_half_extent(const Settings& settings, int size_class);
-glm::dvec3 part_half_extent(const Settings& settings, int size_class = 0);
+/// Half-extents, m, that hold every one of the parts x parts parts (a power of two) of the full height of a
+/// cell of a size class. Eye margin included, and a millimetre for bounds that are rounded to float.
+glm::dvec3 part_half_extent(const Settings& settings, int size_class, int parts);
 
-/// What occluders are to be shrunk for: part and cell of class 0, part and cell of class 1, and so on; parts
-/// alone where a cell is its own part.
+/// What occluders are to be shrunk for, the smallest first: from the smallest part of a cell of class 0
+/// (subdivide x subdivide), by doubling, to the whole cell of the largest class.
 std::vector<glm::dvec3> window_half_extents(const Settings& settings);
 
 }  // namespace veduta

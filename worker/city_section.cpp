@@ -116,7 +116,7 @@ SectionContent city_section(const Settings& settings, const SectionRequest& requ
   const GridFrame city = make_frame(all, seeds_per_voxel * settings.navigation.seed_size_m,
                                     std::numeric_limits<uint64_t>::max());
   const CellOptions cells = cell_options(settings, scene.origin, city, all.lower.z, has_ground(scene));
-  const glm::dvec3 half_extent_m = part_half_extent(settings);
+  const glm::dvec3 half_extent_m = part_half_extent(settings, 0, settings.occlusion.subdivide);
   const double around_m = surroundings_m + half_extent_m.x + 2 * cell_halo_columns(cells) * city.size_m;
   const Columns seen = columns_around(city, middle, request.size_m / 2),
                 known = columns_around(city, middle, request.size_m / 2 + around_m);

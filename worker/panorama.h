@@ -7,16 +7,10 @@
 
 #include "scene/box.h"
 #include "worker/occluders.h"
+#include "worker/occlusion_method.h"
 #include "worker/slices.h"
 
 namespace veduta {
-
-/// What is hidden from all parts of a cell that were drawn.
-struct Occlusion {
-  std::vector<uint32_t> visible;  ///< [N] 0: the object is hidden from every part
-  std::vector<uint32_t>
-      occluded;  ///< [vertical slices] how many of the lowest z-slices are hidden from every part
-};
 
 /// Holds a city's occluders and test boxes in GL buffers. Needs a current GL 4.3 context, the same for its
 /// whole life.

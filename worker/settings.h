@@ -44,8 +44,10 @@ struct Settings {
   } shrink;
   struct {
     std::string method = "panorama";
-    int resolution = 512;  ///< pixels along the edge of a cube face
-    int subdivide = 2;     ///< a cell is baked as subdivide x subdivide parts
+    int resolution = 512;           ///< pixels along the edge of a cube face, for the smallest parts
+    int subdivide = 2;              ///< the smallest parts: subdivide x subdivide of a cell; a power of two
+    double max_overestimate = 1.5;  ///< parts are divided until a row has no more objects than this many
+                                    ///< times those that rays have met for certain
   } occlusion;
   struct {
     double eye_margin_m = 0.0325;  ///< half the interocular distance: one look-up serves both eyes

@@ -202,10 +202,15 @@ const std::vector<Key>& settings_keys() {
              [](Settings& s) -> std::string& { return s.shrink.method; }),
       choice("occlusion.method", {"panorama"}, "how hidden objects are found",
              [](Settings& s) -> std::string& { return s.occlusion.method; }),
-      whole("occlusion.resolution", 64, 4096, true, "pixels along the edge of a cube face",
+      whole("occlusion.resolution", 64, 4096, true,
+            "pixels along the edge of a cube face, for the smallest parts",
             [](Settings& s) -> int& { return s.occlusion.resolution; }),
-      whole("occlusion.subdivide", 1, 16, false, "a cell is baked as subdivide x subdivide parts",
+      whole("occlusion.subdivide", 1, 32, true, "a cell is divided down to subdivide x subdivide parts",
             [](Settings& s) -> int& { return s.occlusion.subdivide; }),
+      real(
+          "occlusion.max_overestimate", 1, 1000, "times",
+          "a cell is divided until its row has no more objects than this many times those that rays have met",
+          [](Settings& s) -> double& { return s.occlusion.max_overestimate; }),
       real("stereo.eye_margin", 0, 1, "m", "half the interocular distance: one look-up serves both eyes",
            [](Settings& s) -> double& { return s.stereo.eye_margin_m; }),
   };

@@ -141,7 +141,7 @@ std::vector<WindowOccluders> PlanesShrinker::shrink(const SealedBlock& block,
   std::vector<WindowOccluders> result;
   for (const glm::dvec3& half_extent : request.half_extents_m) {
     WindowOccluders occluders{half_extent, {}};
-    const std::vector<RingWindow> windows = ring_windows(half_extent, request.resolution, request.reach_m);
+    const std::vector<RingWindow> windows = request.rings(half_extent);
     const std::vector<Body> bodies =
         Cover(block, obstacles, request, half_extent + windows.front().h_m).run();
     for (const RingWindow& window : windows) {

@@ -23,7 +23,7 @@ WindowOccluders shrink_by(BitGrid space, const ColumnRange& own, const glm::dvec
                           const ShrinkRequest& request) {
   WindowOccluders window{half_extent_m, {}};
   Erosion done;  // erosions by boxes add up, so each ring goes on from the one before
-  for (const RingWindow& ring : ring_windows(half_extent_m, request.resolution, request.reach_m)) {
+  for (const RingWindow& ring : request.rings(half_extent_m)) {
     const Erosion erosion = whole_voxels(half_extent_m + ring.h_m, space.frame().size_m);
     OccluderMesh occluders;
     if (erosion == done && !window.rings.empty()) {

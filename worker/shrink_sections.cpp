@@ -209,7 +209,7 @@ std::vector<WindowOccluders> SectionsShrinker::shrink(const SealedBlock& block,
   std::vector<WindowOccluders> windows;
   for (const glm::dvec3& half_extent_m : request.half_extents_m) {
     windows.push_back({half_extent_m, {}});
-    for (const RingWindow& ring : ring_windows(half_extent_m, request.resolution, request.reach_m)) {
+    for (const RingWindow& ring : request.rings(half_extent_m)) {
       windows.back().rings.push_back(
           {ring.h_m, static_cast<float>(ring.depth_limit_m), sections.shrink(half_extent_m, ring.h_m)});
     }

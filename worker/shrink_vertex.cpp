@@ -190,7 +190,7 @@ std::vector<WindowOccluders> VertexShrinker::shrink(const SealedBlock& block, co
   std::vector<WindowOccluders> windows;
   for (const glm::dvec3& half_extent : request.half_extents_m) {
     WindowOccluders& window = windows.emplace_back(WindowOccluders{half_extent, {}});
-    for (const RingWindow& ring : ring_windows(half_extent, request.resolution, request.reach_m))
+    for (const RingWindow& ring : request.rings(half_extent))
       window.rings.push_back({ring.h_m, static_cast<float>(ring.depth_limit_m), {}});
   }
   for (const WeldedMesh& mesh : meshes) {

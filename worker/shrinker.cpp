@@ -1,6 +1,7 @@
 #include "worker/shrinker.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene/error.h"
 #include "worker/shrink_planes.h"
@@ -25,6 +26,14 @@ std::vector<RingWindow> ring_windows(const glm::dvec3& half_extent_m, int resolu
     rings.push_back({h_m, h_m * resolution / (1 + sigma)});
   } while (rings.back().depth_limit_m < reach_m);
   return rings;
+}
+
+int ShrinkRequest::resolution_for(const glm::dvec3& half_extent_m) const {
+  const auto width = [](const glm::dvec3& e) { return std::max(e.x, e.y); };
+  double smallest = width(half_extent_m);
+  for (const glm::dvec3& e : half_extents_m) smallest = std::min(smallest, width(e));
+  const auto halvings = static_cast<int>(std::lround(std::log2(width(half_extent_m) / smallest)));
+  return std::max(resolution >> halvings, std::min(resolution, 64));
 }
 
 std::unique_ptr<Shrinker> make_shrinker(const std::string& method) {

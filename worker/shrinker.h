@@ -27,15 +27,6 @@ struct SealedBlock {
 /// A scene as one block without a halo.
 SealedBlock make_sealed_block(const Scene& scene, double seed_size_m);
 
-/// What a shrinking method is asked for.
-struct ShrinkRequest {
-  std::vector<glm::dvec3> half_extents_m;  ///< e: of parts and of whole cells, eye margin included
-  int resolution = 512;                    ///< R: pixels along a face
-  double reach_m = 0;       ///< rings are made until one reaches this far: the diagonal of the scene
-  double lowest_eye_m = 0;  ///< occluders whose top is below every eye hide nothing that is above ground
-  double keep = 0.95;       ///< share of the volume that erosion leaves, which is asked for
-};
-
 /// The h of each ring and how far it is drawn: h R / (1 + sigma), sigma = 1/64 for sub-pixel snapping. The
 /// first h is a 32nd of the wider half-extent, each next one twice as large, the last reaches `reach_m`.
 /// (DESIGN's T3 has another sqrt(2), for a ball of radius h; cube faces are parallel to the axes and space is
@@ -46,13 +37,29 @@ struct RingWindow {
 };
 std::vector<RingWindow> ring_windows(const glm::dvec3& half_extent_m, int resolution, double reach_m);
 
+/// What a shrinking method is asked for.
+struct ShrinkRequest {
+  std::vector<glm::dvec3> half_extents_m;  ///< e: of cells and of their parts, eye margin included
+  int resolution = 512;                    ///< R: pixels along a face, for the smallest of them
+  double reach_m = 0;       ///< rings are made until one reaches this far: the diagonal of the scene
+  double lowest_eye_m = 0;  ///< occluders whose top is below every eye hide nothing that is above ground
+  double keep = 0.95;       ///< share of the volume that erosion leaves, which is asked for
+
+  /// Pixels along a face for a window: 2^-k times as many for one 2^k times as wide, so that what pixels cost
+  /// in tightness is the same share of what the window does; at least 64.
+  int resolution_for(const glm::dvec3& half_extent_m) const;
+  std::vector<RingWindow> rings(const glm::dvec3& half_extent_m) const {
+    return ring_windows(half_extent_m, resolution_for(half_extent_m), reach_m);
+  }
+};
+
 /// A shrinking method. Contract: for every point q of every occluder of a ring, q + [-(e + h), e + h] lies in
 /// sealed space: no path leads from free space into it that does not cross a surface or pass a gap narrower
 /// than two seeds. The same input gives the same bytes.
 class Shrinker {
  public:
   virtual ~Shrinker() = default;
-  /// \return one for each of request.half_extents_m, with the rings of ring_windows.
+  /// \return one for each of request.half_extents_m, with the rings of request.rings.
   virtual std::vector<WindowOccluders> shrink(const SealedBlock& block,
                                               const ShrinkRequest& request) const = 0;
 };

@@ -116,9 +116,11 @@ class Worker {
     for (const uint32_t cell : cells) {
       if (cell >= baker_->cell_count())
         throw Error(ExitStatus::defect, "worker: there is no cell " + std::to_string(cell));
-      const std::vector<std::byte> record = encode(baker_->bake(cell));
-      write_frame(output_, encode_frame(Verb::cell_baked, record.data(), record.size()));
     }
+    baker_->bake(cells, [&](const CellRecord& record) {
+      const std::vector<std::byte> bytes = encode(record);
+      write_frame(output_, encode_frame(Verb::cell_baked, bytes.data(), bytes.size()));
+    });
     say(Verb::lease_done, json::object());
   }
 

@@ -42,7 +42,7 @@ TEST(Settings, EveryKeyIsRead) {
       "eye_height = 2\nfly_lowest = -1\nfly_highest = 25.5\n"
       "[cells]\nsize = 5\nheight = 2.5\nlargest = 8\nregion = [1, 2.5, 3, 4]\n[slices]\nmax = "
       "4\n[shrink]\nmethod = 'sealed'\n"
-      "[occlusion]\nmethod = 'panorama'\nresolution = 256\nsubdivide = 3\n[stereo]\neye_margin = 0\n");
+      "[occlusion]\nmethod = 'panorama'\nresolution = 256\nsubdivide = 4\n[stereo]\neye_margin = 0\n");
   EXPECT_EQ(s.scene.model, (std::vector<std::string>{"/x/a.json", "/base/b.obj"}));
   EXPECT_EQ(s.scene.terrain_tile_m, 32);
   EXPECT_EQ(s.scene.up, "y");
@@ -63,7 +63,7 @@ TEST(Settings, EveryKeyIsRead) {
   EXPECT_EQ(s.cells.region, (Corners{{1, 2.5}, {3, 2.5}, {3, 4}, {1, 4}}));
   EXPECT_EQ(s.slices.max, 4);
   EXPECT_EQ(s.occlusion.resolution, 256);
-  EXPECT_EQ(s.occlusion.subdivide, 3);
+  EXPECT_EQ(s.occlusion.subdivide, 4);
   EXPECT_EQ(s.stereo.eye_margin_m, 0);
 }
 

@@ -21,6 +21,8 @@ TEST(CellWindows, PartsAndCellsOfEverySizeClass) {
   EXPECT_EQ(window_half_extents(settings_of("walk", 8, 1)), (std::vector<glm::dvec3>{{5.501, 5.501, 1.501}}));
   EXPECT_EQ(window_half_extents(settings_of("walk", 8, 2)),
             (std::vector<glm::dvec3>{{3.001, 3.001, 1.501}, {5.501, 5.501, 1.501}}));
+  EXPECT_EQ(window_half_extents(settings_of("walk", 8, 4)),
+            (std::vector<glm::dvec3>{{1.751, 1.751, 1.501}, {3.001, 3.001, 1.501}, {5.501, 5.501, 1.501}}));
   EXPECT_EQ(
       window_half_extents(settings_of("fly", 2, 2)),
       (std::vector<glm::dvec3>{
@@ -36,7 +38,7 @@ TEST(CellWindows, HoldTheCellsOfTheirClass) {
     const Box cell{lower, lower + glm::vec3(edge, edge, height)};
     EXPECT_EQ(size_class_of(settings, cell), size_class);
     const glm::dvec3 half = 0.5 * (glm::dvec3(cell.upper) - glm::dvec3(cell.lower));
-    const glm::dvec3 window = cell_half_extent(settings, size_class);
+    const glm::dvec3 window = part_half_extent(settings, size_class, 1);
     for (int axis = 0; axis < 3; ++axis) EXPECT_LE(half[axis] + 0.5, window[axis]);
   }
 }

@@ -96,7 +96,7 @@ class HouseShrinker final : public Shrinker {
     std::vector<WindowOccluders> all;
     for (const glm::dvec3& e : request.half_extents_m) {
       WindowOccluders window{e, {}};
-      for (const RingWindow& ring : ring_windows(e, request.resolution, request.reach_m)) {
+      for (const RingWindow& ring : request.rings(e)) {
         const glm::vec3 x = e + ring.h_m;
         OccluderMesh mesh;
         mesh.add_box({glm::vec3(x.x, x.y, -1), glm::vec3(10, 8, 6) - x + glm::vec3(missing_m_, 0, 0)});

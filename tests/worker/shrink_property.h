@@ -78,7 +78,7 @@ inline Looked expect_conservative(const Scene& scene, const Shrinker& shrinker, 
   Looked looked;
   Random random(1);
   for (size_t w = 0; w < windows.size(); ++w) {
-    const auto expected = ring_windows(request.half_extents_m[w], request.resolution, request.reach_m);
+    const auto expected = request.rings(request.half_extents_m[w]);
     EXPECT_EQ(windows[w].rings.size(), expected.size());
     EXPECT_EQ(windows[w].half_extent_m, request.half_extents_m[w]);
     for (size_t r = 0; r < windows[w].rings.size(); ++r) {

@@ -164,7 +164,7 @@ TEST(ShrinkSealed, KeepsMostOfABigBlock) {
   request.reach_m = 1000;
   request.lowest_eye_m = 1.2;
   const std::vector<WindowOccluders> windows = SealedShrinker().shrink(block, request);
-  const auto expected = ring_windows(request.half_extents_m[0], request.resolution, request.reach_m);
+  const auto expected = request.rings(request.half_extents_m[0]);
   ASSERT_EQ(windows[0].rings.size(), expected.size());
   for (size_t r = 0; r < expected.size(); ++r) {
     BitGrid eroded = sealed;

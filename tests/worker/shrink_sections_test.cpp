@@ -76,7 +76,7 @@ Mesh on_ground() {
 TEST(SectionsShrinker, ATurnedBoxKeepsItsWalls) {
   const glm::dvec3 e(2.5, 2.5, 0.5);
   const ShrinkRequest request = request_of(e);
-  const double h = ring_windows(e, request.resolution, request.reach_m)[0].h_m;
+  const double h = request.rings(e)[0].h_m;
   for (const double angle : {0.0, 0.3, 0.7}) {
     Mesh mesh = on_ground();
     const size_t first = mesh.scene.vertices.size();
@@ -95,7 +95,7 @@ TEST(SectionsShrinker, ATurnedBoxKeepsItsWalls) {
 TEST(SectionsShrinker, AnLShapeIsTwoPrisms) {
   const glm::dvec3 e(1.5, 1.5, 0.5);
   const ShrinkRequest request = request_of(e);
-  const double w = 1.5 + ring_windows(e, request.resolution, request.reach_m)[0].h_m;
+  const double w = 1.5 + request.rings(e)[0].h_m;
   Mesh mesh = on_ground();
   mesh.box({{0, 0, 0}, {20, 8, 10}}), mesh.box({{0, 0, 0}, {8, 20, 10}});
   const OccluderMesh left = shrunk(mesh, request);
@@ -107,7 +107,7 @@ TEST(SectionsShrinker, AnLShapeIsTwoPrisms) {
 TEST(SectionsShrinker, AGableIsAFewSteps) {
   const glm::dvec3 e(1.5, 1.5, 0.5);
   ShrinkRequest request = request_of(e);
-  const double h = ring_windows(e, request.resolution, request.reach_m)[0].h_m, w = 1.5 + h;
+  const double h = request.rings(e)[0].h_m, w = 1.5 + h;
   Mesh mesh = on_ground();
   const glm::vec3 a(0, 0, 0), b(8, 0, 0), c(8, 16, 0), d(0, 16, 0), up(0, 0, 6), r0(4, 0, 10), r1(4, 16, 10);
   mesh.quad(a, b, b + up, a + up), mesh.triangle(a + up, b + up, r0);
@@ -127,7 +127,7 @@ TEST(SectionsShrinker, AGableIsAFewSteps) {
 TEST(SectionsShrinker, RowHousesFuse) {
   const glm::dvec3 e(2, 2, 0.5);
   const ShrinkRequest request = request_of(e);
-  const double w = 2 + ring_windows(e, request.resolution, request.reach_m)[0].h_m;
+  const double w = 2 + request.rings(e)[0].h_m;
   Mesh row = on_ground();
   for (int house = 0; house < 8; ++house) {
     Mesh alone = on_ground();

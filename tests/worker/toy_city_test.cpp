@@ -58,7 +58,8 @@ class ToyCity {
     try {
       Baker baker(file_pvs_.city, read_occluder_file(run.occluders()), settings_, "software");
       for (uint32_t cell = 0; cell < baker.cell_count(); ++cell) {
-        const CellRecord record = baker.bake(cell);
+        CellRecord record;
+        baker.bake(std::array{cell}, [&](const CellRecord& baked) { record = baked; });
         file_pvs_.cell_row.push_back(cell);
         file_pvs_.cell_status.push_back(record.status);
         file_pvs_.bake_us.push_back(record.bake_us);

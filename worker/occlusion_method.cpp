@@ -1,0 +1,13 @@
+#include "worker/occlusion_method.h"
+
+#include "scene/error.h"
+#include "worker/panorama_method.h"
+
+namespace veduta {
+
+std::unique_ptr<OcclusionMethod> make_occlusion_method(const std::string& name, const OcclusionInput& input) {
+  if (name == "panorama") return std::make_unique<PanoramaMethod>(input);
+  throw Error(ExitStatus::defect, "occlusion.method: there is no method '" + name + "'");
+}
+
+}  // namespace veduta
