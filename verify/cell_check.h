@@ -1,7 +1,7 @@
 // One view-cell against rays.
 #pragma once
 
-#include "verify/ray_scene.h"
+#include "scene/ray_scene.h"
 #include "verify/verify.h"
 
 namespace veduta {

@@ -6,8 +6,8 @@
 
 #include "pvs/navigation.h"
 #include "scene/box.h"
+#include "scene/ray_scene.h"
 #include "verify/random.h"
-#include "verify/ray_scene.h"
 
 namespace veduta {
 

@@ -19,7 +19,7 @@ only=(
   "^(mpi\.h|mpi/.*)$|farm"
   "^(hdf5.*|H5.*)$|pvs"
   "^(epoxy|EGL|GL|GLES.?|GLFW)/|gl worker viewer"
-  "^embree|verify"
+  "^embree|scene"
   "^CGAL/|scene worker verify"
 )
 

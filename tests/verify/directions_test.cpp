@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <set>
 
+#include "scene/ray_scene.h"
 #include "tests/verify/toy_city.h"
-#include "verify/ray_scene.h"
 
 namespace veduta {
 namespace {

@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "scene/ray_scene.h"
 #include "tests/verify/toy_city.h"
-#include "verify/ray_scene.h"
 
 namespace veduta {
 namespace {

@@ -1,4 +1,4 @@
-#include "verify/ray_scene.h"
+#include "scene/ray_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -22,9 +22,12 @@ std::optional<uint32_t> met_by_all(const Scene& scene, const glm::vec3& eye, con
   return undrawn_met_first(scene, eye, direction, all, std::vector<uint8_t>(all.size(), 0));
 }
 
-TEST(RayScene, AgreesWithExactArithmeticOverAllTriangles) {
+class RaySceneBuilds : public testing::TestWithParam<RayBuild> {};
+INSTANTIATE_TEST_SUITE_P(Builds, RaySceneBuilds, testing::Values(RayBuild::thorough, RayBuild::quick));
+
+TEST_P(RaySceneBuilds, AgreesWithExactArithmeticOverAllTriangles) {
   const Scene scene = Street::scene();
-  const RayScene rays(scene);
+  const RayScene rays(scene, GetParam());
   Random random(5);
   const glm::vec3 eye{1.25f, 2.5f, 1.7f};
   const auto directions = sphere_directions(3001, random);

@@ -1,6 +1,6 @@
 // Two Embree scenes: the triangles, and (made when first asked for) their bounds, through which a ray
 // collects all that it might meet without trusting a float intersection.
-#include "verify/ray_scene.h"
+#include "scene/ray_scene.h"
 
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ void check(RTCDevice device, const char* step) {
   const RTCError error = rtcGetDeviceError(device);
   if (error != RTC_ERROR_NONE)
     throw Error(ExitStatus::defect,
-                fmt::format("verify: Embree: {} failed with code {}; is there enough memory?", step,
+                fmt::format("rays: Embree: {} failed with code {}; is there enough memory?", step,
                             static_cast<int>(error)));
 }
 
@@ -62,11 +62,13 @@ void collect(const RTCIntersectFunctionNArguments* arguments) {
   reinterpret_cast<Collection*>(arguments->context)->triangles->push_back(arguments->primID);
 }
 
-Hierarchy commit(RTCDevice device, RTCGeometry geometry, const char* step) {
+Hierarchy commit(RTCDevice device, RTCGeometry geometry, RayBuild build, const char* step) {
   rtcCommitGeometry(geometry);
   Hierarchy hierarchy(rtcNewScene(device));
-  rtcSetSceneFlags(hierarchy.get(), RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(hierarchy.get(), RTC_BUILD_QUALITY_HIGH);
+  const bool quick = build == RayBuild::quick;
+  rtcSetSceneFlags(hierarchy.get(),
+                   quick ? RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT : RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(hierarchy.get(), quick ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_HIGH);
   rtcAttachGeometry(hierarchy.get(), geometry);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(hierarchy.get());
@@ -74,17 +76,16 @@ Hierarchy commit(RTCDevice device, RTCGeometry geometry, const char* step) {
   return hierarchy;
 }
 
-Hierarchy build_triangles(RTCDevice device, const Scene& scene) {
+Hierarchy build_triangles(RTCDevice device, const Scene& scene, RayBuild build) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  // Copied, not shared: Embree reads 16 bytes at every vertex, past the end of a vector of 12-byte ones.
+  // Vertices are copied: Embree reads 16 bytes at every one, past the end of a vector of 12-byte ones.
   void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                            sizeof(glm::vec3), scene.vertices.size());
-  void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                            sizeof(glm::uvec3), scene.triangles.size());
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, scene.triangles.data(), 0,
+                             sizeof(glm::uvec3), scene.triangles.size());
   check(device, "making room for the model");
   std::memcpy(vertices, scene.vertices.data(), scene.vertices.size() * sizeof(glm::vec3));
-  std::memcpy(triangles, scene.triangles.data(), scene.triangles.size() * sizeof(glm::uvec3));
-  return commit(device, geometry, "building the hierarchy of triangles");
+  return commit(device, geometry, build, "building the hierarchy of triangles");
 }
 
 Hierarchy build_bounds(RTCDevice device, const Scene& scene) {
@@ -94,15 +95,15 @@ Hierarchy build_bounds(RTCDevice device, const Scene& scene) {
   rtcSetGeometryBoundsFunction(
       geometry, [](const RTCBoundsFunctionArguments* a) { give_bounds(a); }, nullptr);
   rtcSetGeometryIntersectFunction(geometry, collect);
-  return commit(device, geometry, "building the hierarchy of bounds");
+  return commit(device, geometry, RayBuild::thorough, "building the hierarchy of bounds");
 }
 
 }  // namespace
 
 struct RayScene::Tracer {
-  explicit Tracer(const Scene& city) : scene(city) {
+  Tracer(const Scene& city, RayBuild build) : scene(city) {
     check(device.get(), "starting");
-    triangles = build_triangles(device.get(), scene);
+    triangles = build_triangles(device.get(), scene, build);
   }
   RTCScene boxes() {
     std::call_once(bounds_made, [this] { bounds = build_bounds(device.get(), scene); });
@@ -117,12 +118,12 @@ struct RayScene::Tracer {
   std::once_flag bounds_made;
 };
 
-RayScene::RayScene(const Scene& scene) {
+RayScene::RayScene(const Scene& scene, RayBuild build) {
   if (scene.triangles.empty() || scene.triangles.size() >= Hit::none)
     throw Error(ExitStatus::bad_input,
-                fmt::format("verify: the scene has {} triangles; from 1 to 2^32 - 2 can be traced",
+                fmt::format("rays: the scene has {} triangles; from 1 to 2^32 - 2 can be traced",
                             scene.triangles.size()));
-  tracer_ = std::make_unique<Tracer>(scene);
+  tracer_ = std::make_unique<Tracer>(scene, build);
 }
 
 RayScene::~RayScene() = default;
