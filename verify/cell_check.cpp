@@ -9,6 +9,7 @@
 #include "verify/directions.h"
 #include "verify/eyes.h"
 #include "verify/settle.h"
+#include "verify/tightest_index.h"
 
 namespace veduta {
 namespace {
@@ -138,6 +139,12 @@ class Shooter {
       check.seen_triangles += seen;
       check.seen_objects += seen > 0;
       check.seen_buildings += seen > 0 && object.kind == Kind::building;
+      if (seen == 0) continue;
+      const uint64_t count = object.triangle_end - object.triangle_begin;
+      check.seen_whole_triangles += count;
+      check.tightest_triangles += tightest_index({&file_.city.triangle_slices[object.triangle_begin], count},
+                                                 {&seen_[object.triangle_begin], count})
+                                      .drawn;
     }
   }
 

@@ -17,7 +17,9 @@ struct CellCheck {
   std::vector<FalseInvisible> examples;  ///< the nearest of each object, by object
   uint64_t pvs_objects = 0, seen_objects = 0, pvs_buildings = 0, seen_buildings = 0;
   uint64_t pvs_triangles = 0, seen_triangles = 0;
-  uint64_t whole_triangles = 0;  ///< of the listed objects, drawn or not
+  uint64_t whole_triangles = 0;       ///< of the listed objects, drawn or not
+  uint64_t seen_whole_triangles = 0;  ///< of the seen objects, seen or not
+  uint64_t tightest_triangles = 0;    ///< of the smallest row that draws all that was seen
 };
 
 /// Half of the rays go all over the sphere, half at what the row does not draw. Depends on nothing but its

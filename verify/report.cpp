@@ -42,6 +42,10 @@ std::string describe(const VerifyReport& report, const PvsFile& file) {
       report.overestimate_objects, report.overestimate_objects_median, report.overestimate_objects_worst,
       report.overestimate_buildings, report.overestimate_triangles);
   text += fmt::format(
+      "of that, format  {:.2f}x in triangles: the tightest rows that draw what was seen (whole objects: "
+      "{:.2f}x)\n",
+      report.tightest_triangles, report.whole_seen_objects_triangles);
+  text += fmt::format(
       "a cell lists     {:.1f} objects, {:.1f} triangles; rays saw {:.1f} objects, {:.1f} triangles\n",
       report.mean_pvs_objects, report.mean_pvs_triangles, report.mean_seen_objects,
       report.mean_seen_triangles);
@@ -84,6 +88,8 @@ std::string describe_json(const VerifyReport& report, const PvsFile& file) {
       {"overestimate_objects_worst", report.overestimate_objects_worst},
       {"overestimate_buildings", report.overestimate_buildings},
       {"overestimate_triangles", report.overestimate_triangles},
+      {"tightest_triangles", report.tightest_triangles},
+      {"whole_seen_objects_triangles", report.whole_seen_objects_triangles},
       {"mean_pvs_objects", report.mean_pvs_objects},
       {"mean_seen_objects", report.mean_seen_objects},
       {"mean_pvs_triangles", report.mean_pvs_triangles},

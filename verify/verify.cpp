@@ -62,6 +62,8 @@ VerifyReport add_up(const std::vector<CellCheck>& checks) {
     sum.pvs_buildings += check.pvs_buildings, sum.seen_buildings += check.seen_buildings;
     sum.pvs_triangles += check.pvs_triangles, sum.seen_triangles += check.seen_triangles;
     sum.whole_triangles += check.whole_triangles;
+    sum.tightest_triangles += check.tightest_triangles;
+    sum.seen_whole_triangles += check.seen_whole_triangles;
     if (check.seen_objects > 0)
       overestimates.push_back(
           ratio(static_cast<double>(check.pvs_objects), static_cast<double>(check.seen_objects)));
@@ -76,6 +78,8 @@ VerifyReport add_up(const std::vector<CellCheck>& checks) {
   report.overestimate_buildings =
       ratio(static_cast<double>(sum.pvs_buildings), static_cast<double>(sum.seen_buildings));
   report.overestimate_triangles = ratio(pvs_triangles, seen_triangles);
+  report.tightest_triangles = ratio(static_cast<double>(sum.tightest_triangles), seen_triangles);
+  report.whole_seen_objects_triangles = ratio(static_cast<double>(sum.seen_whole_triangles), seen_triangles);
   report.mean_pvs_objects = ratio(pvs_objects, looked),
   report.mean_seen_objects = ratio(seen_objects, looked);
   report.mean_pvs_triangles = ratio(pvs_triangles, looked),

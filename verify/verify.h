@@ -38,6 +38,9 @@ struct VerifyReport {
   // per-cell spread
   double overestimate_objects = 0, overestimate_buildings = 0, overestimate_triangles = 0;
   double overestimate_objects_median = 0, overestimate_objects_worst = 0;
+  /// What the format of a row costs of that: the smallest rows that draw all that was seen, and whole
+  /// objects of which anything was seen, over what was seen. No bake can do better than the first.
+  double tightest_triangles = 0, whole_seen_objects_triangles = 0;
   double mean_pvs_objects = 0, mean_seen_objects = 0, mean_pvs_triangles = 0, mean_seen_triangles = 0;
   double drawn_of_whole_objects = 0;  ///< triangles drawn with slices over triangles of the listed objects
   double elapsed_s = 0, rays_per_second = 0;

@@ -53,6 +53,27 @@ TEST(Verify, HiddenObjectInTheRowIsOverestimateOnly) {
   EXPECT_DOUBLE_EQ(report.overestimate_buildings, 3.0 / 2);
 }
 
+// The hut is what visibility costs, 12 triangles; what it costs to draw whole boxes of which at most three
+// sides are seen is the format's, until slices tell the sides apart.
+TEST(Verify, SaysWhatTheFormatCosts) {
+  PvsFile file = Street::file(Street::row({0, 1, 2, 3}));
+  const VerifyReport whole = verify(file, few);
+  EXPECT_DOUBLE_EQ(whole.tightest_triangles, 36 / whole.mean_seen_triangles);
+  EXPECT_DOUBLE_EQ(whole.whole_seen_objects_triangles, 36 / whole.mean_seen_triangles);
+  // The floor of the tower, its first two triangles, in a slice of its own.
+  file.city.slices[Street::tower].z = 2;
+  const Object& tower = file.city.scene.objects[Street::tower];
+  for (uint64_t t = tower.triangle_begin + 2; t < tower.triangle_end; ++t)
+    file.city.triangle_slices[t].z_last = 2;
+  const VerifyReport sliced = verify(file, few);
+  EXPECT_DOUBLE_EQ(sliced.tightest_triangles, 34 / sliced.mean_seen_triangles);
+  EXPECT_DOUBLE_EQ(sliced.whole_seen_objects_triangles, whole.whole_seen_objects_triangles);
+  EXPECT_DOUBLE_EQ(sliced.overestimate_triangles, whole.overestimate_triangles);
+  EXPECT_NE(describe(sliced, file).find("tightest rows"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(describe_json(sliced, file))["tightest_triangles"],
+            sliced.tightest_triangles);
+}
+
 TEST(Verify, MissingVisibleObjectFailsAndTheExampleReproduces) {
   const PvsFile file = Street::file(Street::row({Street::ground, Street::wall}));
   const VerifyReport report = verify(file, few);
