@@ -5,8 +5,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "scene/random.h"
 #include "scene/scene.h"
-#include "verify/random.h"
 
 namespace veduta {
 

@@ -6,8 +6,8 @@
 
 #include "pvs/navigation.h"
 #include "scene/box.h"
+#include "scene/random.h"
 #include "scene/ray_scene.h"
-#include "verify/random.h"
 
 namespace veduta {
 

@@ -10,8 +10,8 @@
 #include <mutex>
 #include <numeric>
 
+#include "scene/random.h"
 #include "verify/cell_check.h"
-#include "verify/random.h"
 
 namespace veduta {
 namespace {

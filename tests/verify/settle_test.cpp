@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "verify/random.h"
+#include "scene/random.h"
 
 namespace veduta {
 namespace {
