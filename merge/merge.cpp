@@ -45,8 +45,8 @@ BakedCell baked_cell(const JournalEntry& entry, uint32_t cell, RecordPool& pool,
                 fmt::format("{}: byte {}: another record than before; was the file changed meanwhile? "
                             "Run the same command again",
                             shard.string(), entry.offset));
-  if (record.status == CellStatus::all_visible) record.row = all_visible_row(city);
-  return {record.status, record.bake_us, std::move(record.row)};
+  if (record.status == CellStatus::all_visible) record.row = all_visible_row(city), record.overestimate = 0;
+  return {record.status, record.bake_us, std::move(record.row), record.overestimate};
 }
 
 MergeResult merge(const RunPaths& run, const std::filesystem::path& output, bool partial) {
@@ -73,7 +73,7 @@ MergeResult merge(const RunPaths& run, const std::filesystem::path& output, bool
   RecordPool pool(journal.shards);
   result.content_digest = write_pvs(output, city, header, [&](uint32_t cell) {
     const JournalEntry& entry = journal.cells[cell];
-    if (entry.shard < 0) return BakedCell{CellStatus::all_visible, 0, all_visible_row(city)};
+    if (entry.shard < 0) return BakedCell{CellStatus::all_visible, 0, all_visible_row(city), 0};
     return baked_cell(entry, cell, pool, city, journal.shards[static_cast<size_t>(entry.shard)]);
   });
   result.bytes = std::filesystem::file_size(output);

@@ -212,6 +212,7 @@ Defect find_row_defect(const PvsFile& file) {
   if (file.cell_row.size() != cells) return "/cells/row: not one for each cell";
   if (file.cell_status.size() != cells) return "/cells/status: not one for each cell";
   if (file.bake_us.size() != cells) return "/cells/bake_us: not one for each cell";
+  if (file.overestimate.size() != cells) return "/cells/overestimate: not one for each cell";
   if (file.row_begin.empty() || file.row_begin.front() != 0 || file.row_begin.back() != file.entries.size())
     return "/pvs/begin: does not span the entries";
   const size_t rows = file.row_begin.size() - 1;
@@ -219,6 +220,8 @@ Defect find_row_defect(const PvsFile& file) {
     if (file.cell_row[c] >= rows) return fmt::format("/cells/row: cell {} names a row that is not there", c);
     if (file.cell_status[c] > CellStatus::all_visible)
       return fmt::format("/cells/status: cell {}: unknown status", c);
+    if (!is_overestimate(file.overestimate[c]))
+      return fmt::format("/cells/overestimate: cell {}: neither 0 nor at least 1", c);
   }
   for (size_t r = 0; r < rows; ++r)
     if (file.row_begin[r] > file.row_begin[r + 1] || file.row_begin[r + 1] > file.entries.size())

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
 #include <array>
 #include <glm/common.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "pvs/hdf5_input.h"
 #include "pvs/pvs_file.h"
@@ -19,8 +21,48 @@ struct Summary {
   std::array<uint64_t, 3> status{};        ///< cells by CellStatus
   double mean_visible = 0;                 ///< objects, over cells
   uint64_t median_visible = 0, max_visible = 0;
+  uint64_t certified = 0;  ///< cells with an over-estimate
+  float median_overestimate = 0, worst_overestimate = 0;
+  std::optional<double> asked_overestimate;  ///< occlusion.max_overestimate of the configuration
+  double within_asked = 0;                   ///< share of all cells; those without an over-estimate are not
   std::map<std::array<float, 3>, uint64_t> sizes;  ///< edges of cells, m, and how many
 };
+
+/// The file says how it was made, perhaps by a later program with other keys: only this one is looked at.
+std::optional<double> asked_overestimate(const std::string& config) {
+  try {
+    return toml::parse(config)["occlusion"]["max_overestimate"].value<double>();
+  } catch (const toml::parse_error&) {
+    return {};
+  }
+}
+
+void summarize_overestimates(const PvsFile& file, Summary& s) {
+  std::vector<float> certified;
+  std::copy_if(file.overestimate.begin(), file.overestimate.end(), std::back_inserter(certified),
+               [](float value) { return value > 0; });
+  s.asked_overestimate = asked_overestimate(file.header.config);
+  s.certified = certified.size();
+  if (certified.empty()) return;
+  std::sort(certified.begin(), certified.end());
+  s.median_overestimate = certified[certified.size() / 2];
+  s.worst_overestimate = certified.back();
+  // Rounded as the ratios were, so that 6 over 5 is within 1.2.
+  const auto asked = static_cast<float>(s.asked_overestimate.value_or(0));
+  const auto within = std::upper_bound(certified.begin(), certified.end(), asked) - certified.begin();
+  s.within_asked = static_cast<double>(within) / static_cast<double>(s.cells);
+}
+
+std::string overestimate_line(const Summary& s) {
+  if (s.certified == 0) return "  certified  no over-estimate: nobody looked\n";
+  std::string out =
+      fmt::format("  certified  over-estimate in objects {:.2f}x median, {:.2f}x worst, of {} cells",
+                  s.median_overestimate, s.worst_overestimate, s.certified);
+  if (s.asked_overestimate)
+    out += fmt::format("; {:.1f} % of all within the {:g}x asked for", 100 * s.within_asked,
+                       *s.asked_overestimate);
+  return out + "\n";
+}
 
 Summary summarize(const PvsFile& file, const std::filesystem::path& path) {
   Summary s;
@@ -49,6 +91,7 @@ Summary summarize(const PvsFile& file, const std::filesystem::path& path) {
     s.median_visible = visible[visible.size() / 2];
     s.max_visible = visible.back();
   }
+  summarize_overestimates(file, s);
   return s;
 }
 
@@ -76,6 +119,7 @@ std::string describe(const PvsFile& file, const std::filesystem::path& path) {
   out += fmt::format("  rows       {} unique, {} entries\n", s.rows, s.entries);
   out += fmt::format("  visible    {:.1f} objects a cell in the mean, {} median, {} most, of {}\n",
                      s.mean_visible, s.median_visible, s.max_visible, s.objects);
+  out += overestimate_line(s);
   out += fmt::format("  size       {} bytes; the PVS {} bytes, {:.1f} bytes a cell\n", s.file_bytes,
                      s.pvs_bytes, per_cell(s.pvs_bytes, s));
   out += fmt::format("  renderer   {}\n", file.header.renderer.empty() ? "not known" : file.header.renderer);
@@ -88,7 +132,7 @@ std::string describe_json(const PvsFile& file, const std::filesystem::path& path
   nlohmann::ordered_json sizes = nlohmann::ordered_json::array();
   for (const auto& [edge, count] : s.sizes)
     sizes.push_back({{"edges_m", {edge[0], edge[1], edge[2]}}, {"cells", count}});
-  const nlohmann::ordered_json out = {
+  nlohmann::ordered_json out = {
       {"file", path.string()},
       {"complete", file.header.complete},
       {"conservative", file.header.conservative},
@@ -107,6 +151,11 @@ std::string describe_json(const PvsFile& file, const std::filesystem::path& path
       {"visible_objects_mean", s.mean_visible},
       {"visible_objects_median", s.median_visible},
       {"visible_objects_max", s.max_visible},
+      {"cells_certified", s.certified},
+      {"overestimate_median", s.median_overestimate},
+      {"overestimate_worst", s.worst_overestimate},
+      {"overestimate_asked", nullptr},
+      {"cells_within_asked_share", s.within_asked},
       {"file_bytes", s.file_bytes},
       {"pvs_bytes", s.pvs_bytes},
       {"pvs_bytes_per_cell", per_cell(s.pvs_bytes, s)},
@@ -114,6 +163,7 @@ std::string describe_json(const PvsFile& file, const std::filesystem::path& path
       {"fingerprint", file.header.fingerprint},
       {"content_digest", file.content_digest},
   };
+  if (s.asked_overestimate) out["overestimate_asked"] = *s.asked_overestimate;
   // Names in a file need not be valid UTF-8; an info command must not fail over that.
   return out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

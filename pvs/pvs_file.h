@@ -34,6 +34,7 @@ struct PvsFile {
   std::vector<uint32_t> cell_row;       ///< [C] index of a unique row
   std::vector<CellStatus> cell_status;  ///< [C]
   std::vector<uint32_t> bake_us;        ///< [C] time of the bake of the cell, us
+  std::vector<float> overestimate;      ///< [C] certified (pvs/visibility.h), 0: nobody looked
   std::vector<uint64_t> row_begin;      ///< [R+1]
   std::vector<PvsEntry> entries;        ///< [K]
   std::string
@@ -70,6 +71,7 @@ struct BakedCell {
   CellStatus status = CellStatus::all_visible;
   uint32_t bake_us = 0;
   PvsRow row;
+  float overestimate = 0;  ///< certified; 0: nobody looked
 };
 using CellSource = std::function<BakedCell(uint32_t cell)>;
 

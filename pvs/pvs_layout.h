@@ -11,7 +11,7 @@
 
 namespace veduta {
 
-inline constexpr uint32_t pvs_version = 2;  ///< 1 had one octree of free space
+inline constexpr uint32_t pvs_version = 3;  ///< 1 had one octree of free space, 2 no over-estimates
 inline constexpr const char* pvs_format = "veduta-pvs";
 inline constexpr const char* city_format = "veduta-city";  ///< a prepared city: no rows
 inline constexpr size_t chunk_bytes = 256 * 1024;
@@ -83,6 +83,10 @@ inline constexpr Column cell_row{"/cells/row", Element::u32, 1,
 inline constexpr Column cell_bake_us{"/cells/bake_us", Element::u32, 1,
                                      "[C] time that the bake of the cell took, us"};
 inline constexpr Column cell_status{"/cells/status", Element::u8, 1, "[C] 0 baked, 1 coarse, 2 all visible"};
+inline constexpr Column cell_overestimate{
+    "/cells/overestimate", Element::f32, 1,
+    "[C] objects of the row over objects that rays from the cell met, at least 1: an upper bound of the "
+    "row's excess over the exact one; 0 where nobody looked"};
 inline constexpr Column pvs_begin{"/pvs/begin", Element::u64, 1,
                                   "[R+1] entries of row r are begin[r] to begin[r+1]-1"};
 inline constexpr Column pvs_object{"/pvs/object", Element::u32, 1, "[K] visible objects, ascending in a row"};
@@ -92,11 +96,12 @@ inline constexpr Column pvs_index{"/pvs/index", Element::i8, 3,
                                   "x < 0 and its last x-slice >= -x+1, or the same for y"};
 
 inline constexpr const Column* all[] = {
-    &vertices,       &triangles,           &material,      &triangle_slice, &object_name,      &object_kind,
-    &object_bounds,  &object_begin,        &object_slices, &part_name,      &part_object,      &part_begin,
-    &part_end,       &cell_bounds,         &free_roots,    &free_states,    &free_first_child, &surface_roots,
-    &surface_states, &surface_first_child, &ground_height, &cell_row,       &cell_bake_us,     &cell_status,
-    &pvs_begin,      &pvs_object,          &pvs_index};
+    &vertices,      &triangles,        &material,      &triangle_slice, &object_name,
+    &object_kind,   &object_bounds,    &object_begin,  &object_slices,  &part_name,
+    &part_object,   &part_begin,       &part_end,      &cell_bounds,    &free_roots,
+    &free_states,   &free_first_child, &surface_roots, &surface_states, &surface_first_child,
+    &ground_height, &cell_row,         &cell_bake_us,  &cell_status,    &cell_overestimate,
+    &pvs_begin,     &pvs_object,       &pvs_index};
 
 /// A forest of octrees in the file: its group, which has its lattice as attributes, and its datasets.
 struct ForestColumns {
@@ -124,8 +129,9 @@ struct RootAttributes {
 };
 
 /// XXH3-128 over the logical content: dataset digests in the order of their paths without /cells/bake_us, and
-/// the attributes that give numbers a meaning. Not over config, renderer and fingerprint, which say how it
-/// was made.
+/// the attributes that give numbers a meaning. Over-estimates belong to it: a reader relies on them, and on
+/// one kind of machine they repeat as the rows do. Not over config, renderer and fingerprint, which say how
+/// it was made.
 std::string content_digest(const City& city, bool conservative, const ColumnDigests& digests);
 
 /// XXH3-128 over the root's attributes: without it, a flipped bit in a text could go unseen.

@@ -52,6 +52,8 @@ PvsFile read_pvs(const std::filesystem::path& path) {
   digests[column::cell_row.path] = ColumnReader(input, column::cell_row).read_into(file.cell_row);
   digests[column::cell_bake_us.path] = ColumnReader(input, column::cell_bake_us).read_into(file.bake_us);
   digests[column::cell_status.path] = ColumnReader(input, column::cell_status).read_into(file.cell_status);
+  digests[column::cell_overestimate.path] =
+      ColumnReader(input, column::cell_overestimate).read_into(file.overestimate);
   digests[column::pvs_begin.path] = ColumnReader(input, column::pvs_begin).read_into(file.row_begin);
   read_entries(input, file.entries, digests);
   finish_city(input, root, digests, file.city);

@@ -27,6 +27,7 @@ class RowWriter {
       : cell_row_(output, column::cell_row, city.cells.size()),
         bake_us_(output, column::cell_bake_us, city.cells.size()),
         status_(output, column::cell_status, city.cells.size()),
+        overestimate_(output, column::cell_overestimate, city.cells.size()),
         begin_(output, column::pvs_begin, city.cells.size() + 1),
         object_(output, column::pvs_object, 0),
         index_(output, column::pvs_index, 0) {
@@ -38,12 +39,14 @@ class RowWriter {
     cell_row_.append(&row, 1);
     bake_us_.append(&cell.bake_us, 1);
     status_.append(&cell.status, 1);
+    overestimate_.append(&cell.overestimate, 1);
   }
 
   void finish(ColumnDigests& digests) {
     digests[column::cell_row.path] = cell_row_.finish();
     digests[column::cell_bake_us.path] = bake_us_.finish();
     digests[column::cell_status.path] = status_.finish();
+    digests[column::cell_overestimate.path] = overestimate_.finish();
     digests[column::pvs_begin.path] = begin_.finish();
     digests[column::pvs_object.path] = object_.finish();
     digests[column::pvs_index.path] = index_.finish();
@@ -71,7 +74,7 @@ class RowWriter {
     return known->second;
   }
 
-  ColumnWriter cell_row_, bake_us_, status_, begin_, object_, index_;
+  ColumnWriter cell_row_, bake_us_, status_, overestimate_, begin_, object_, index_;
   uint64_t entries_ = 0;
   std::unordered_map<Hash128, uint32_t, HashOfHash> rows_;
   std::vector<uint32_t> objects_;
@@ -81,7 +84,9 @@ class RowWriter {
 BakedCell ask(const CellSource& cells, uint32_t number, const City& city, const std::filesystem::path& file) {
   BakedCell cell = cells(number);
   const PvsEntry* first = cell.row.data();
-  if (const auto defect = find_defect(first, first + cell.row.size(), city.slices))
+  auto defect = find_defect(first, first + cell.row.size(), city.slices);
+  if (!is_overestimate(cell.overestimate)) defect = fmt::format("an over-estimate of {}", cell.overestimate);
+  if (defect)
     throw Error(ExitStatus::defect, fmt::format("{}: cell {}: {}; a defect of the bake, please report it",
                                                 file.string(), number, *defect));
   return cell;
@@ -96,7 +101,7 @@ void refuse_defects(const City& city, const std::filesystem::path& file) {
 /// The least that the file can take: a refusal now is better than one after an hour.
 uint64_t least_bytes(const City& city) {
   const Scene& scene = city.scene;
-  const uint64_t raw = scene.vertices.size() * 12 + scene.triangle_count() * 19 + city.cells.size() * 33 +
+  const uint64_t raw = scene.vertices.size() * 12 + scene.triangle_count() * 19 + city.cells.size() * 37 +
                        city.navigation.ground.height.size() * 4;
   return raw / 8;
 }

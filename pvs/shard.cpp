@@ -25,8 +25,9 @@ namespace {
 
 template <typename T>
 void put(std::vector<std::byte>& out, T value) {
-  const auto* bytes = reinterpret_cast<const std::byte*>(&value);
-  out.insert(out.end(), bytes, bytes + sizeof value);
+  const size_t at = out.size();
+  out.resize(at + sizeof value);
+  std::memcpy(out.data() + at, &value, sizeof value);
 }
 
 void put_text(std::vector<std::byte>& out, const std::string& text) {
@@ -68,6 +69,7 @@ std::vector<std::byte> encode(const CellRecord& record) {
   put(out, record.cell);
   put(out, static_cast<uint8_t>(record.status));
   put(out, record.bake_us);
+  put(out, record.overestimate);
   put(out, static_cast<uint32_t>(record.row.size()));
   for (const PvsEntry& entry : record.row) {
     put(out, entry.object);
@@ -89,10 +91,12 @@ CellRecord decode_cell_record(const std::byte* data, size_t size) {
   std::memcpy(&record.cell, data, 4);
   std::memcpy(&status, data + 4, 1);
   std::memcpy(&record.bake_us, data + 5, 4);
-  std::memcpy(&count, data + 9, 4);
+  std::memcpy(&record.overestimate, data + 9, 4);
+  std::memcpy(&count, data + record_count_at, 4);
   if (size != record_payload_minimum + uint64_t{count} * record_entry_bytes)
     throw bad("its length is not that of its entries");
   if (status > static_cast<uint8_t>(CellStatus::all_visible)) throw bad("unknown status");
+  if (!is_overestimate(record.overestimate)) throw bad("an over-estimate that is neither 0 nor at least 1");
   record.status = static_cast<CellStatus>(status);
   record.row.resize(count);
   const std::byte* at = data + record_payload_minimum;

@@ -19,12 +19,14 @@ struct CellRecord {
   CellStatus status = CellStatus::baked;
   uint32_t bake_us = 0;
   PvsRow row;
-  /// Same answer, whatever the time it took.
+  float overestimate = 0;  ///< certified: see certified_overestimate in pvs/visibility.h; 0: nobody looked
+  /// Same answer, whatever the time it took, and whatever the over-estimate: two kinds of CPU may differ in
+  /// a ray that grazes an edge, and both bounds hold.
   bool same_answer(const CellRecord& other) const { return status == other.status && row == other.row; }
 };
 
-/// The payload of a record, little-endian: u32 cell, u8 status, u32 bake_us, u32 count, then per entry u32
-/// object, i8[3].
+/// The payload of a record, little-endian: u32 cell, u8 status, u32 bake_us, f32 overestimate, u32 count,
+/// then per entry u32 object, i8[3].
 std::vector<std::byte> encode(const CellRecord& record);
 /// \throw Error(bad_input) when the bytes are not exactly one record.
 CellRecord decode_cell_record(const std::byte* data, size_t size);

@@ -91,7 +91,7 @@ std::optional<Payload> whole_record(Window& file, uint64_t offset) {
   const auto size = file.value<uint32_t>(offset);
   if (!size || !plausible_payload(*size)) return {};
   // The count repeats the length: random bytes rarely agree, which keeps the search for a later record cheap.
-  const auto count = file.value<uint32_t>(offset + 4 + 9);
+  const auto count = file.value<uint32_t>(offset + 4 + record_count_at);
   if (!count || record_payload_minimum + uint64_t{*count} * record_entry_bytes != *size) return {};
   const std::byte* data = file.at(offset, *size + record_frame_bytes);
   if (!data) return {};

@@ -1,7 +1,10 @@
 // The three bytes: which part of an object a row says is visible (DESIGN §6, thesis §4.1.3, fig. 4.5).
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace veduta {
@@ -54,5 +57,19 @@ using PvsRow = std::vector<PvsEntry>;
 
 /// How a cell's row came about; stored in the file as this number.
 enum class CellStatus : uint8_t { baked = 0, coarse = 1, all_visible = 2 };
+
+/// The certified over-estimate of a row: its objects over those that rays from points of the cell met. What
+/// rays met can be seen for certain, so the row has at most this many times the objects of the exact one.
+/// \return 0 where nobody looked or rays met nothing; else at least 1.
+constexpr float certified_overestimate(size_t row_objects, size_t seen_objects) {
+  if (seen_objects == 0) return 0;
+  const double ratio = static_cast<double>(row_objects) / static_cast<double>(seen_objects);
+  return std::max(1.0f, static_cast<float>(ratio));
+}
+
+/// Can a cell have this one: 0, or finite and at least 1?
+constexpr bool is_overestimate(float value) {
+  return value == 0 || (value >= 1 && value <= std::numeric_limits<float>::max());
+}
 
 }  // namespace veduta

@@ -45,6 +45,11 @@ std::string describe(const VerifyReport& report, const PvsFile& file) {
       "of that, format  {:.2f}x in triangles: the tightest rows that draw what was seen (whole objects: "
       "{:.2f}x)\n",
       report.tightest_triangles, report.whole_seen_objects_triangles);
+  if (report.cells_certified > 0)
+    text += fmt::format(
+        "certified        in objects: median cell {:.2f}x, worst {:.2f}x, by the bake's own rays in {} "
+        "cells\n",
+        report.certified_median, report.certified_worst, report.cells_certified);
   text += fmt::format(
       "a cell lists     {:.1f} objects, {:.1f} triangles; rays saw {:.1f} objects, {:.1f} triangles\n",
       report.mean_pvs_objects, report.mean_pvs_triangles, report.mean_seen_objects,
@@ -90,6 +95,9 @@ std::string describe_json(const VerifyReport& report, const PvsFile& file) {
       {"overestimate_triangles", report.overestimate_triangles},
       {"tightest_triangles", report.tightest_triangles},
       {"whole_seen_objects_triangles", report.whole_seen_objects_triangles},
+      {"cells_certified", report.cells_certified},
+      {"certified_median", report.certified_median},
+      {"certified_worst", report.certified_worst},
       {"mean_pvs_objects", report.mean_pvs_objects},
       {"mean_seen_objects", report.mean_seen_objects},
       {"mean_pvs_triangles", report.mean_pvs_triangles},

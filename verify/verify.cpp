@@ -94,6 +94,17 @@ VerifyReport add_up(const std::vector<CellCheck>& checks) {
   return report;
 }
 
+void add_certified(const PvsFile& file, const std::vector<uint32_t>& cells, VerifyReport& report) {
+  std::vector<float> certified;
+  for (const uint32_t cell : cells)
+    if (file.overestimate[cell] > 0) certified.push_back(file.overestimate[cell]);
+  if (certified.empty()) return;
+  std::sort(certified.begin(), certified.end());
+  report.cells_certified = static_cast<uint32_t>(certified.size());
+  report.certified_median = certified[certified.size() / 2];
+  report.certified_worst = certified.back();
+}
+
 }  // namespace
 
 VerifyReport verify(const PvsFile& file, const VerifyOptions& options,
@@ -111,6 +122,7 @@ VerifyReport verify(const PvsFile& file, const VerifyOptions& options,
     if (progress) progress(done, static_cast<uint32_t>(cells.size()));
   });
   VerifyReport report = add_up(checks);
+  add_certified(file, cells, report);
   report.elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   report.rays_per_second = ratio(static_cast<double>(report.rays), report.elapsed_s);
   return report;

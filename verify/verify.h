@@ -41,6 +41,9 @@ struct VerifyReport {
   /// What the format of a row costs of that: the smallest rows that draw all that was seen, and whole
   /// objects of which anything was seen, over what was seen. No bake can do better than the first.
   double tightest_triangles = 0, whole_seen_objects_triangles = 0;
+  // what the bake's own rays certified for the cells checked, where they looked
+  uint32_t cells_certified = 0;
+  double certified_median = 0, certified_worst = 0;
   double mean_pvs_objects = 0, mean_seen_objects = 0, mean_pvs_triangles = 0, mean_seen_triangles = 0;
   double drawn_of_whole_objects = 0;  ///< triangles drawn with slices over triangles of the listed objects
   double elapsed_s = 0, rays_per_second = 0;

@@ -35,6 +35,7 @@ void Baker::bake(std::span<const uint32_t> cells, const std::function<void(const
           counts_.choose(o, &found.occlusion.occluded[slice_boxes_.object_slice_begin[o]]);
       if (!index.nothing()) record.row.push_back({o, index});
     }
+    record.overestimate = certified_overestimate(record.row.size(), found.seen_objects);
     // Since the cell before: several are in work at a time.
     const auto now = std::chrono::steady_clock::now();
     record.bake_us =

@@ -49,7 +49,7 @@ struct Frame {
 
 inline constexpr uint32_t frame_magic = 0x31544456;        // "VDT1"
 inline constexpr uint64_t frame_payload_limit = 1u << 28;  // 256 MiB: more is a damaged stream
-inline constexpr int protocol_version = 2;
+inline constexpr int protocol_version = 3;
 
 std::vector<std::byte> encode_frame(Verb verb, const std::byte* payload, size_t size);
 std::vector<std::byte> encode_frame(Verb verb, const std::string& json);

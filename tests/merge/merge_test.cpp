@@ -33,6 +33,7 @@ TEST(Merge, InterleavedShardsGiveTheFileOfOneWriter) {
     const auto row = file.row(c);
     EXPECT_EQ(PvsRow(row.begin(), row.end()), small_row(c).row) << c;
     EXPECT_EQ(file.bake_us[c], 1000 + c);
+    EXPECT_EQ(file.overestimate[c], small_row(c).overestimate);
   }
 }
 
@@ -50,12 +51,15 @@ TEST(Merge, EqualDuplicatesCountOnceAndDifferentOnesAreRefused) {
   run.whole();
   CellRecord slower = record(2);
   slower.bake_us = 99999;
+  slower.overestimate = 1.75f;
   run.shard("c", {slower, record(5)});
   const Journal journal = run.journal();
   EXPECT_EQ(journal.done, 7u);
   EXPECT_EQ(journal.duplicates, 2u);
   merge_run(run.paths, {}, false);
-  EXPECT_EQ(read_pvs(run.paths.result()).bake_us[2], 1002u);  // the first counts
+  const PvsFile file = read_pvs(run.paths.result());
+  EXPECT_EQ(file.bake_us[2], 1002u);  // the first counts
+  EXPECT_EQ(file.overestimate[2], 1.25f);
   CellRecord other = record(4);
   other.row = {{1, completely_visible}};
   run.shard("d", {other});
@@ -83,13 +87,14 @@ TEST(Merge, CellsGivenUpAreAllVisible) {
   RunDirectory run;
   run.whole();
   std::filesystem::remove(run.paths.shards() / "b");
-  run.shard("b", {record(0), record(5), {2, CellStatus::all_visible, 7, {}}});
+  run.shard("b", {record(0), record(5), {2, CellStatus::all_visible, 7, {}, 1.5f}});
   const MergeResult result = merge_run(run.paths, {}, false);
   EXPECT_EQ(result.baked, 6u);
   EXPECT_EQ(result.all_visible, 1u);
   const PvsFile file = read_pvs(run.paths.result());
   EXPECT_FALSE(file.header.complete);
   EXPECT_EQ(file.cell_status[2], CellStatus::all_visible);
+  EXPECT_EQ(file.overestimate[2], 0) << "all objects are another row than the one that was looked at";
   ASSERT_EQ(file.row(2).size(), 6u);
   for (const PvsEntry& entry : file.row(2)) EXPECT_EQ(entry.index, completely_visible);
 }

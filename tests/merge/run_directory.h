@@ -16,7 +16,7 @@ inline const std::string job = "0123456789abcdef";
 
 inline CellRecord record(uint32_t cell) {
   const BakedCell baked = small_row(cell);
-  return {cell, baked.status, baked.bake_us, baked.row};
+  return {cell, baked.status, baked.bake_us, baked.row, baked.overestimate};
 }
 
 /// A run directory with a city of 7 cells and no shard yet.

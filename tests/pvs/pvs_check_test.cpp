@@ -38,6 +38,28 @@ TEST(PvsCheck, WriterRefusesRowsThatItsReaderWould) {
   EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
 }
 
+TEST(PvsCheck, WriterRefusesOverestimatesThatItsReaderWould) {
+  TemporaryDirectory directory;
+  for (const float value : {0.5f, -2.0f, NAN, INFINITY}) {
+    const auto source = [&](uint32_t c) {
+      BakedCell cell = small_row(c);
+      if (c == 4) cell.overestimate = value;
+      return cell;
+    };
+    std::string message;
+    EXPECT_EQ(status_of([&] { write_pvs(directory / "a.h5", small_city(), {}, source); }, &message),
+              ExitStatus::defect);
+    EXPECT_NE(message.find("cell 4: an over-estimate"), std::string::npos) << message;
+  }
+  write_pvs(directory / "a.h5", small_city(), {}, small_row);
+  PvsFile file = read_pvs(directory / "a.h5");
+  EXPECT_EQ(find_row_defect(file), std::nullopt);
+  file.overestimate[3] = 0.5f;
+  EXPECT_EQ(find_row_defect(file), "/cells/overestimate: cell 3: neither 0 nor at least 1");
+  file.overestimate.pop_back();
+  EXPECT_EQ(find_row_defect(file), "/cells/overestimate: not one for each cell");
+}
+
 TEST(PvsCheck, WriterRefusesCitiesThatItsReaderWould) {
   TemporaryDirectory directory;
   const std::vector<std::function<void(City&)>> spoil{

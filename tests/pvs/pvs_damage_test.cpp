@@ -30,6 +30,7 @@ bool reads_as(const std::filesystem::path& file, const std::string& bytes, const
     EXPECT_EQ(got.row_begin, written.row_begin);
     EXPECT_EQ(got.cell_row, written.cell_row);
     EXPECT_EQ(got.bake_us, written.bake_us);
+    EXPECT_EQ(got.overestimate, written.overestimate);
     EXPECT_EQ(got.cell_status, written.cell_status);
     EXPECT_EQ(got.city.cells, written.city.cells);
     EXPECT_EQ(got.city.scene.vertices, written.city.scene.vertices);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "pvs/digest.h"
 #include "scene/error.h"
 #include "tests/pvs/small_city.h"
@@ -71,6 +73,7 @@ TEST(PvsFile, GivesBackWhatWasWritten) {
     const auto row = file.row(c);
     EXPECT_EQ(PvsRow(row.begin(), row.end()), small_row(c).row) << c;
     EXPECT_EQ(file.bake_us[c], 1000 + c);
+    EXPECT_EQ(file.overestimate[c], small_row(c).overestimate);
     EXPECT_EQ(file.find_cell(file.city.cells[c].center()), c);
   }
   EXPECT_EQ(file.find_cell({-1, -5, 1.5f}), -1);
@@ -135,6 +138,12 @@ TEST(PvsFile, DigestIsOfTheContentAlone) {
     return cell;
   };
   EXPECT_NE(write_pvs(directory / "b.h5", small_city(), small_header(), less), digest);
+  const auto looser = [](uint32_t c) {
+    BakedCell cell = small_row(c);
+    if (c == 5) cell.overestimate = 4;
+    return cell;
+  };
+  EXPECT_NE(write_pvs(directory / "b.h5", small_city(), small_header(), looser), digest);
 }
 
 TEST(PvsFile, SameInputGivesTheSameBytes) {
@@ -156,6 +165,48 @@ TEST(PvsFile, IsNotCompleteWithCellsThatWereNotBaked) {
   EXPECT_EQ(file.cell_status[3], CellStatus::all_visible);
   EXPECT_NE(describe(file, directory / "a.h5").find("6 baked, 0 coarse, 1 all visible"), std::string::npos);
   EXPECT_NE(describe_json(file, directory / "a.h5").find("\"cells_all_visible\": 1"), std::string::npos);
+}
+
+TEST(PvsFile, DescribesOverestimates) {
+  TemporaryDirectory directory;
+  PvsHeader header = small_header();
+  const auto described = [&](const CellSource& cells) {
+    write_pvs(directory / "a.h5", small_city(), header, cells);
+    const PvsFile file = read_pvs(directory / "a.h5");
+    return std::pair(describe(file, directory / "a.h5"),
+                     nlohmann::json::parse(describe_json(file, directory / "a.h5")));
+  };
+  // Of 1.125, 1.25, 1.375, 1.5, 1.625, 1.75 and a cell where nobody looked, three of seven are within 1.375.
+  header.config = "[occlusion]\nmax_overestimate = 1.375\na_key_of_tomorrow = 1\n";
+  const auto [text, json] = described(small_row);
+  EXPECT_NE(text.find("1.50x median, 1.75x worst, of 6 cells; 42.9 % of all within the 1.375x asked for"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(json["cells_certified"], 6);
+  EXPECT_EQ(json["overestimate_median"], 1.5);
+  EXPECT_EQ(json["overestimate_worst"], 1.75);
+  EXPECT_EQ(json["overestimate_asked"], 1.375);
+  EXPECT_DOUBLE_EQ(json["cells_within_asked_share"], 3.0 / 7);
+  header.config = "not TOML at all";
+  const auto [unasked, unasked_json] = described([](uint32_t) {
+    return BakedCell{CellStatus::baked, 0, {}, 2};
+  });
+  EXPECT_NE(unasked.find("2.00x worst, of 7 cells\n"), std::string::npos) << unasked;
+  EXPECT_TRUE(unasked_json["overestimate_asked"].is_null());
+  EXPECT_NE(described([](uint32_t) { return BakedCell{}; }).first.find("nobody looked"), std::string::npos);
+}
+
+/// 6 objects over 5 are within 1.2, though 1.2 as float32 is more than as float64.
+TEST(PvsFile, OverestimateAsAskedForIsWithin) {
+  TemporaryDirectory directory;
+  PvsHeader header;
+  header.config = "[occlusion]\nmax_overestimate = 1.2\n";
+  const auto source = [](uint32_t) {
+    return BakedCell{CellStatus::baked, 0, {}, certified_overestimate(6, 5)};
+  };
+  write_pvs(directory / "a.h5", small_city(), header, source);
+  EXPECT_NE(describe(read_pvs(directory / "a.h5"), directory / "a.h5").find("100.0 % of all within the 1.2x"),
+            std::string::npos);
 }
 
 TEST(PvsFile, PreparedCityRoundTripsAndIsNoResult) {

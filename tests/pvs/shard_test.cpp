@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include <cmath>
 #include <csignal>
 #include <random>
 
@@ -22,7 +23,7 @@ using test::write_bytes;
 const std::string job = "0123456789abcdef0123456789abcdef";
 
 CellRecord record(uint32_t cell) {
-  CellRecord r{cell, CellStatus::baked, 100 + cell, {}};
+  CellRecord r{cell, CellStatus::baked, 100 + cell, {}, 1 + static_cast<float>(cell) / 16};
   for (uint32_t i = 0; i <= cell % 5; ++i) r.row.push_back({7 * i + cell, {static_cast<int8_t>(i), 0, 1}});
   return r;
 }
@@ -70,6 +71,7 @@ TEST(Shard, GivesBackWhatWasAppended) {
   for (uint32_t c = 0; c < 50; ++c) {
     EXPECT_EQ(got.records[c].cell, c);
     EXPECT_EQ(got.records[c].bake_us, 100 + c);
+    EXPECT_EQ(got.records[c].overestimate, record(c).overestimate);
     EXPECT_TRUE(got.records[c].same_answer(record(c)));
     EXPECT_TRUE(ShardReader(directory / "a").read(got.offsets[c]).same_answer(record(c)));
   }
@@ -86,6 +88,21 @@ TEST(Shard, DecodesExactlyOneRecord) {
   std::swap(unordered.row[0], unordered.row[1]);
   const auto wrong = encode(unordered);
   EXPECT_EQ(status_of([&] { decode_cell_record(wrong.data(), wrong.size()); }), ExitStatus::bad_input);
+  for (const float value : {0.999f, -1.0f, NAN, INFINITY}) {
+    CellRecord unfounded = record(4);
+    unfounded.overestimate = value;
+    const auto encoded = encode(unfounded);
+    EXPECT_EQ(status_of([&] { decode_cell_record(encoded.data(), encoded.size()); }), ExitStatus::bad_input)
+        << value;
+  }
+}
+
+TEST(Shard, TheSameAnswerMayHaveAnotherBound) {
+  CellRecord other = record(4);
+  other.overestimate = 3;
+  EXPECT_TRUE(other.same_answer(record(4)));
+  other.row.pop_back();
+  EXPECT_FALSE(other.same_answer(record(4)));
 }
 
 TEST(Shard, CutAnywhereInTheLastThreeRecordsKeepsTheOthers) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace veduta {
 
 TEST(Visibility, WorkedExampleOfTheHeader) {
@@ -29,6 +31,16 @@ TEST(Visibility, CompletelyVisibleDrawsAllAndNothingDrawsNothing) {
   }
   EXPECT_TRUE(VisibilityIndex{}.nothing());
   EXPECT_FALSE(completely_visible.nothing());
+}
+
+TEST(Visibility, OverestimatesAreRatiosOfAtLeastOne) {
+  EXPECT_EQ(certified_overestimate(6, 4), 1.5f);
+  EXPECT_EQ(certified_overestimate(4, 4), 1.0f);
+  EXPECT_EQ(certified_overestimate(3, 4), 1.0f) << "never under 1, whatever rays met";
+  EXPECT_EQ(certified_overestimate(6, 0), 0.0f) << "nobody looked";
+  EXPECT_EQ(certified_overestimate(0, 0), 0.0f);
+  for (const float good : {0.0f, 1.0f, 1.5f, 1e9f}) EXPECT_TRUE(is_overestimate(good)) << good;
+  for (const float bad : {-1.0f, 0.5f, NAN, INFINITY, -INFINITY}) EXPECT_FALSE(is_overestimate(bad)) << bad;
 }
 
 }  // namespace veduta

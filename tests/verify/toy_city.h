@@ -82,6 +82,7 @@ inline PvsFile make_file(Scene scene, const std::vector<Box>& cells, const std::
     file.cell_row.push_back(c);
     file.cell_status.push_back(CellStatus::baked);
     file.bake_us.push_back(1);
+    file.overestimate.push_back(0);
     file.entries.insert(file.entries.end(), rows[c].begin(), rows[c].end());
     file.row_begin.push_back(file.entries.size());
   }

@@ -74,6 +74,20 @@ TEST(Verify, SaysWhatTheFormatCosts) {
             sliced.tightest_triangles);
 }
 
+TEST(Verify, SaysWhatTheBakeCertifiedBesideWhatItMeasures) {
+  PvsFile file = Street::file(Street::row({0, 1, 2, 3}));
+  EXPECT_EQ(describe(verify(file, few), file).find("certified "), std::string::npos) << "nobody looked";
+  file.overestimate = {1.5f};
+  const VerifyReport report = verify(file, few);
+  EXPECT_EQ(report.cells_certified, 1u);
+  EXPECT_EQ(report.certified_median, 1.5);
+  EXPECT_EQ(report.certified_worst, 1.5);
+  EXPECT_NE(
+      describe(report, file).find("in objects: median cell 1.50x, worst 1.50x, by the bake's own rays in 1"),
+      std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(describe_json(report, file))["certified_worst"], 1.5);
+}
+
 TEST(Verify, MissingVisibleObjectFailsAndTheExampleReproduces) {
   const PvsFile file = Street::file(Street::row({Street::ground, Street::wall}));
   const VerifyReport report = verify(file, few);

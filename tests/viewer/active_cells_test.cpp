@@ -14,6 +14,7 @@ PvsFile two_cells() {
   file.cell_row = {0, 1};
   file.cell_status = {CellStatus::baked, CellStatus::baked};
   file.bake_us = {0, 0};
+  file.overestimate = {0, 0};
   file.entries = {{0, completely_visible}, {2, {0, 0, 3}}, {1, completely_visible}, {2, {1, 0, 0}}};
   file.row_begin = {0, 2, 4};
   return file;

@@ -62,6 +62,7 @@ inline Street make_street() {
   street.file.cell_row = {0};
   street.file.cell_status = {CellStatus::baked};
   street.file.bake_us = {1};
+  street.file.overestimate = {0};
   // From (-1..1, -1..1, 1.9) the top of the wall at (20..21, 4) hides the tower below 4 + 2.1 * 20 / 22 m > 5
   // m. Floor 2 is from 5 to 10 m; lines of sight over the wall meet the tower's front at 5.6 m at the lowest.
   street.file.entries = {{Street::ground, completely_visible},

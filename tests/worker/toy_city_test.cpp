@@ -63,6 +63,7 @@ class ToyCity {
         file_pvs_.cell_row.push_back(cell);
         file_pvs_.cell_status.push_back(record.status);
         file_pvs_.bake_us.push_back(record.bake_us);
+        file_pvs_.overestimate.push_back(record.overestimate);
         file_pvs_.entries.insert(file_pvs_.entries.end(), record.row.begin(), record.row.end());
         file_pvs_.row_begin.push_back(file_pvs_.entries.size());
       }
