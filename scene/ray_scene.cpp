@@ -62,6 +62,11 @@ void collect(const RTCIntersectFunctionNArguments* arguments) {
   reinterpret_cast<Collection*>(arguments->context)->triangles->push_back(arguments->primID);
 }
 
+void sort_out(std::vector<uint32_t>& triangles) {
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+}
+
 Hierarchy commit(RTCDevice device, RTCGeometry geometry, RayBuild build, const char* step) {
   rtcCommitGeometry(geometry);
   Hierarchy hierarchy(rtcNewScene(device));
@@ -178,8 +183,21 @@ std::vector<uint32_t> RayScene::triangles_near(const glm::vec3& eye, const glm::
   ray.ray.tfar = distance_m * 1.0001f + 1e-3f, ray.ray.mask = ~0u;
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(tracer_->boxes(), &collection.context, &ray);
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  sort_out(found);
+  return found;
+}
+
+std::vector<uint32_t> RayScene::triangles_around(const glm::vec3& center, float radius_m) const {
+  std::vector<uint32_t> found;
+  RTCPointQuery ball{center.x, center.y, center.z, 0, radius_m};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  const auto keep = [](RTCPointQueryFunctionArguments* arguments) {
+    static_cast<std::vector<uint32_t>*>(arguments->userPtr)->push_back(arguments->primID);
+    return false;  // the ball stays as it is
+  };
+  rtcPointQuery(tracer_->boxes(), &ball, &context, keep, &found);
+  sort_out(found);
   return found;
 }
 

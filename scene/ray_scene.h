@@ -48,6 +48,9 @@ class RayScene {
   std::vector<uint32_t> triangles_near(const glm::vec3& eye, const glm::vec3& direction,
                                        float distance_m) const;
 
+  /// Every triangle with a point in the ball, and more, ascending.
+  std::vector<uint32_t> triangles_around(const glm::vec3& center, float radius_m) const;
+
  private:
   struct Tracer;
   std::unique_ptr<Tracer> tracer_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <map>
+#include <set>
 
 #include "verify/directions.h"
 #include "verify/eyes.h"
@@ -25,13 +26,16 @@ std::vector<uint8_t> drawn_by(const PvsFile& file, uint32_t cell) {
   return drawn;
 }
 
+constexpr size_t faults_looked_into = 256;
+
 // Shoots rays from one cell and keeps what they meet.
 class Shooter {
  public:
-  Shooter(const PvsFile& file, uint32_t cell, const RayScene& rays)
+  Shooter(const PvsFile& file, uint32_t cell, const RayScene& rays, double narrow_gap_limit_m)
       : file_(file),
         cell_(cell),
         rays_(rays),
+        narrow_gap_limit_m_(narrow_gap_limit_m),
         drawn_(drawn_by(file, cell)),
         hidden_(file.city.scene, drawn_),
         unmet_(hidden_),
@@ -44,10 +48,9 @@ class Shooter {
     if (std::has_single_bit(++looks_)) unmet_ = Targets(file_.city.scene, met_or_undrawn());
     const uint64_t at_hidden = hidden_.empty() ? 0 : count / 2, at_unmet = unmet_.empty() ? 0 : count / 4;
     const uint64_t uniform = count - at_hidden - at_unmet;
-    const uint64_t wrong = shoot(eye, sphere_directions(uniform, random));
-    if (uniform > 0)
-      worst_share_ = std::max(worst_share_, static_cast<double>(wrong) / static_cast<double>(uniform));
-    uniform_ += uniform, uniform_wrong_ += wrong;
+    const Missed missed = shoot(eye, sphere_directions(uniform, random));
+    uniform_ += uniform;
+    wrong_.add(missed.wrong, uniform), narrow_.add(missed.narrow, uniform);
     shoot(eye, hidden_.directions(eye, at_hidden, random));
     shoot(eye, unmet_.directions(eye, at_unmet, random));
   }
@@ -56,54 +59,96 @@ class Shooter {
     CellCheck check;
     check.has_eye = true;
     check.rays = shot_, check.hits = met_, check.cleared = cleared_;
-    check.false_share =
-        uniform_ == 0 ? 0 : static_cast<double>(uniform_wrong_) / static_cast<double>(uniform_);
-    check.worst_false_share = worst_share_;
-    check.false_triangles = nearest_.size();
-    for (const auto& [triangle, example] : nearest_) add_example(check.examples, example);
-    check.false_objects = check.examples.size();
+    check.wrong = wrong_.sum(uniform_, {}), check.narrow = narrow_.sum(uniform_, wrong_.triangles);
     count_objects(check);
     return check;
   }
 
  private:
+  // Rays that met what the row does not draw.
+  struct Missed {
+    uint64_t wrong = 0, narrow = 0;
+  };
+
+  // What was seen and is not drawn, in either way.
+  struct Tally {
+    std::map<uint32_t, FalseInvisible> triangles;  // the hit that was settled
+    uint64_t uniform = 0;                          // rays of those all over the sphere
+    double worst_share = 0;
+
+    void add(uint64_t rays, uint64_t of) {
+      uniform += rays;
+      if (of > 0) worst_share = std::max(worst_share, static_cast<double>(rays) / static_cast<double>(of));
+    }
+
+    // Leaves out the objects of `others`.
+    CellCheck::Missing sum(uint64_t of, const std::map<uint32_t, FalseInvisible>& others) const {
+      CellCheck::Missing result;
+      result.share = of == 0 ? 0 : static_cast<double>(uniform) / static_cast<double>(of);
+      result.worst_share = worst_share;
+      result.triangles = triangles.size();
+      std::set<uint32_t> left_out;
+      for (const auto& [triangle, example] : others) left_out.insert(example.object);
+      for (const auto& [triangle, example] : triangles)
+        if (!left_out.contains(example.object)) add_example(result.examples, example);
+      result.objects = result.examples.size();
+      return result;
+    }
+  };
+
   std::vector<uint8_t> met_or_undrawn() const {
     std::vector<uint8_t> result(drawn_.size());
     for (size_t t = 0; t < result.size(); ++t) result[t] = seen_[t] || !drawn_[t];
     return result;
   }
 
-  // Returns how many of the rays meet what the row does not draw.
-  uint64_t shoot(const glm::vec3& eye, const std::vector<glm::vec3>& directions) {
+  Missed shoot(const glm::vec3& eye, const std::vector<glm::vec3>& directions) {
     hits_.resize(directions.size());
     rays_.first_hits(eye, directions, hits_);
-    uint64_t wrong = 0;
+    Missed missed;
     for (size_t i = 0; i < directions.size(); ++i) {
       if (hits_[i].triangle == Hit::none) continue;
       ++met_;
       if (drawn_[hits_[i].triangle])
         seen_[hits_[i].triangle] = 1;
       else
-        wrong += settle(eye, directions[i], hits_[i]);
+        settle(eye, directions[i], hits_[i], missed);
     }
     shot_ += directions.size();
-    return wrong;
+    return missed;
   }
 
-  // Is a hit on an undrawn triangle what a viewer would see? A triangle that was settled once from this cell
-  // stays so; settling each of a million hits on a forgotten house would take hours.
-  bool settle(const glm::vec3& eye, const glm::vec3& direction, const Hit& hit) {
-    if (nearest_.contains(hit.triangle)) return true;
+  // Is a hit on an undrawn triangle what a viewer would see, and is that a fault? A triangle that is a fault
+  // from this cell stays one: settling each of a million hits on a forgotten house would take hours. One that
+  // was seen through a narrow gap is looked at again at every hit.
+  void settle(const glm::vec3& eye, const glm::vec3& direction, const Hit& hit, Missed& missed) {
+    if (wrong_.triangles.contains(hit.triangle)) {
+      ++missed.wrong;
+      return;
+    }
+    const Scene& scene = file_.city.scene;
     const auto candidates = rays_.triangles_near(eye, direction, hit.distance_m);
-    const auto triangle = undrawn_met_first(file_.city.scene, eye, direction, candidates, drawn_);
+    const auto triangle = undrawn_met_first(scene, eye, direction, candidates, drawn_);
     if (!triangle) {
       ++cleared_;
-      return false;
+      return;
     }
+    FalseInvisible example{
+        cell_, object_of(*triangle), *triangle, eye, direction, eye + direction * hit.distance_m, {}};
+    // A row with so many faults has failed; excuses would take long and change nothing.
+    const auto gap = wrong_.triangles.size() < faults_looked_into
+                         ? narrow_gap(scene, rays_, eye, direction, hit.distance_m, narrow_gap_limit_m_)
+                         : std::nullopt;
+    if (gap && !wrong_.triangles.contains(*triangle)) {
+      example.gap = *gap;
+      ++missed.narrow;
+      narrow_.triangles.try_emplace(*triangle, example);
+      return;
+    }
+    ++missed.wrong;
     seen_[*triangle] = 1;
-    nearest_.try_emplace(*triangle, FalseInvisible{cell_, object_of(*triangle), *triangle, eye, direction,
-                                                   eye + direction * hit.distance_m});
-    return true;
+    wrong_.triangles.try_emplace(*triangle, example);
+    narrow_.triangles.erase(*triangle);
   }
 
   uint32_t object_of(uint32_t triangle) const {
@@ -114,7 +159,7 @@ class Shooter {
     return static_cast<uint32_t>(after - objects.begin());
   }
 
-  // `nearest_` is in order of triangles, so one object's examples follow each other.
+  // Examples come in the order of triangles, so one object's examples follow each other.
   static void add_example(std::vector<FalseInvisible>& examples, const FalseInvisible& example) {
     if (examples.empty() || examples.back().object != example.object)
       examples.push_back(example);
@@ -151,25 +196,25 @@ class Shooter {
   const PvsFile& file_;
   uint32_t cell_;
   const RayScene& rays_;
+  double narrow_gap_limit_m_;
   std::vector<uint8_t> drawn_;
   Targets hidden_, unmet_;
   uint32_t looks_ = 0;
   std::vector<uint8_t> seen_;
   std::vector<Hit> hits_;
-  std::map<uint32_t, FalseInvisible>
-      nearest_;  // of each triangle falsely invisible, the hit that was settled
-  uint64_t shot_ = 0, met_ = 0, cleared_ = 0, uniform_ = 0, uniform_wrong_ = 0;
-  double worst_share_ = 0;
+  Tally wrong_, narrow_;  // no triangle is in both
+  uint64_t shot_ = 0, met_ = 0, cleared_ = 0, uniform_ = 0;
 };
 
 }  // namespace
 
-CellCheck check_cell(const PvsFile& file, uint32_t cell, const VerifyOptions& options, const RayScene& rays) {
+CellCheck check_cell(const PvsFile& file, uint32_t cell, const VerifyOptions& options, const RayScene& rays,
+                     double narrow_gap_limit_m) {
   Random random(options.seed, cell);
   const auto eyes = eye_points(file.city.cells[cell], std::max(1u, options.eyes_per_cell),
                                file.city.navigation.free, rays, Random(random.bits()));
   if (eyes.empty()) return {};
-  Shooter shooter(file, cell, rays);
+  Shooter shooter(file, cell, rays, narrow_gap_limit_m);
   for (size_t i = 0; i < eyes.size(); ++i) {
     const uint64_t begin = options.rays_per_cell * i / eyes.size(),
                    end = options.rays_per_cell * (i + 1) / eyes.size();

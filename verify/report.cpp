@@ -21,6 +21,22 @@ std::string as_text(const glm::vec3& v) {
   return fmt::format("({:.9g}, {:.9g}, {:.9g})", v.x, v.y, v.z);
 }
 
+std::string as_text(const FalseInvisible& example, const PvsFile& file) {
+  return fmt::format("cell {}: object {} \"{}\", triangle {}: eye {}, direction {}, hit {}", example.cell,
+                     example.object, object_name(file, example.object), example.triangle,
+                     as_text(example.eye), as_text(example.direction), as_text(example.hit));
+}
+
+nlohmann::ordered_json as_json(const FalseInvisible& example, const PvsFile& file) {
+  return {{"cell", example.cell},
+          {"object", example.object},
+          {"name", object_name(file, example.object)},
+          {"triangle", example.triangle},
+          {"eye_m", as_array(example.eye)},
+          {"direction", as_array(example.direction)},
+          {"hit_m", as_array(example.hit)}};
+}
+
 }  // namespace
 
 std::string describe(const VerifyReport& report, const PvsFile& file) {
@@ -35,6 +51,11 @@ std::string describe(const VerifyReport& report, const PvsFile& file) {
       report.false_invisible_objects, report.false_invisible_triangles,
       report.false_invisible_solid_angle_mean, report.false_invisible_solid_angle_worst,
       report.grazing_settled);
+  text += fmt::format(
+      "narrow gaps      {} objects, {} triangles; solid angle {:.3g} mean, {:.3g} worst eye: seen through "
+      "nothing but gaps narrower than two seeds ({:.4g} m), which a bake may take for closed\n",
+      report.narrow_gap_objects, report.narrow_gap_triangles, report.narrow_gap_solid_angle_mean,
+      report.narrow_gap_solid_angle_worst, report.narrow_gap_limit_m);
   text += fmt::format(
       "over-estimate    {:.2f}x in objects (median cell {:.2f}x, worst {:.2f}x), {:.2f}x in buildings, "
       "{:.2f}x in "
@@ -59,17 +80,19 @@ std::string describe(const VerifyReport& report, const PvsFile& file) {
   text +=
       "What rays saw is a lower bound of what can be seen, so the true over-estimate is at most the one "
       "printed.\n";
+  for (const FalseInvisible& example : report.narrow_gap_examples)
+    text += fmt::format("narrow gap       {}: {:.3g} m wide, {:.4g} m from the eye\n", as_text(example, file),
+                        example.gap.width_m, example.gap.distance_m);
   for (const FalseInvisible& example : report.examples)
-    text += fmt::format(
-        "FALSE INVISIBLE  cell {}: object {} \"{}\", triangle {}: eye {}, direction {}, hit {} (m from the "
-        "origin)\n",
-        example.cell, example.object, object_name(file, example.object), example.triangle,
-        as_text(example.eye), as_text(example.direction), as_text(example.hit));
+    text += fmt::format("FALSE INVISIBLE  {} (m from the origin)\n", as_text(example, file));
   if (report.rays == 0)
     text += "FAILED: nothing was checked: no sampled cell has a point where a viewer can be\n";
   else
-    text += report.passed() ? "passed: no ray met a triangle that its row does not draw\n"
-                            : "FAILED: rays met triangles that their rows do not draw\n";
+    text += !report.passed() ? "FAILED: rays met triangles that their rows do not draw\n"
+            : report.narrow_gap_triangles > 0
+                ? "passed: through nothing but gaps narrower than two seeds did "
+                  "rays meet a triangle that its row does not draw\n"
+                : "passed: no ray met a triangle that its row does not draw\n";
   return text;
 }
 
@@ -87,6 +110,11 @@ std::string describe_json(const VerifyReport& report, const PvsFile& file) {
       {"false_invisible_triangles", report.false_invisible_triangles},
       {"false_invisible_solid_angle_mean", report.false_invisible_solid_angle_mean},
       {"false_invisible_solid_angle_worst", report.false_invisible_solid_angle_worst},
+      {"narrow_gap_limit_m", report.narrow_gap_limit_m},
+      {"narrow_gap_objects", report.narrow_gap_objects},
+      {"narrow_gap_triangles", report.narrow_gap_triangles},
+      {"narrow_gap_solid_angle_mean", report.narrow_gap_solid_angle_mean},
+      {"narrow_gap_solid_angle_worst", report.narrow_gap_solid_angle_worst},
       {"seen_is_a_lower_bound", true},
       {"overestimate_objects", report.overestimate_objects},
       {"overestimate_objects_median", report.overestimate_objects_median},
@@ -107,14 +135,12 @@ std::string describe_json(const VerifyReport& report, const PvsFile& file) {
       {"rays_per_second", report.rays_per_second},
   };
   json["examples"] = nlohmann::ordered_json::array();
-  for (const FalseInvisible& example : report.examples)
-    json["examples"].push_back({{"cell", example.cell},
-                                {"object", example.object},
-                                {"name", object_name(file, example.object)},
-                                {"triangle", example.triangle},
-                                {"eye_m", as_array(example.eye)},
-                                {"direction", as_array(example.direction)},
-                                {"hit_m", as_array(example.hit)}});
+  for (const FalseInvisible& example : report.examples) json["examples"].push_back(as_json(example, file));
+  json["narrow_gap_examples"] = nlohmann::ordered_json::array();
+  for (const FalseInvisible& example : report.narrow_gap_examples) {
+    nlohmann::ordered_json& entry = json["narrow_gap_examples"].emplace_back(as_json(example, file));
+    entry["gap_m"] = example.gap.width_m, entry["gap_from_eye_m"] = example.gap.distance_m;
+  }
   return json.dump(2) + "\n";
 }
 

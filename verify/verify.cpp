@@ -34,11 +34,18 @@ double ratio(double over, double under) {
   return under > 0 ? over / under : 0;
 }
 
-void keep_nearest(std::vector<FalseInvisible>& examples) {
+std::vector<FalseInvisible> nearest(std::vector<FalseInvisible> examples) {
   std::stable_sort(examples.begin(), examples.end(), [](const FalseInvisible& a, const FalseInvisible& b) {
     return glm::distance(a.eye, a.hit) < glm::distance(b.eye, b.hit);
   });
   if (examples.size() > example_limit) examples.resize(example_limit);
+  return examples;
+}
+
+void add(CellCheck::Missing& sum, const CellCheck::Missing& cell) {
+  sum.share += cell.share, sum.worst_share = std::max(sum.worst_share, cell.worst_share);
+  sum.objects += cell.objects, sum.triangles += cell.triangles;
+  sum.examples.insert(sum.examples.end(), cell.examples.begin(), cell.examples.end());
 }
 
 VerifyReport add_up(const std::vector<CellCheck>& checks) {
@@ -52,12 +59,7 @@ VerifyReport add_up(const std::vector<CellCheck>& checks) {
       continue;
     }
     report.rays += check.rays, report.hits += check.hits, report.grazing_settled += check.cleared;
-    report.false_invisible_objects += check.false_objects,
-        report.false_invisible_triangles += check.false_triangles;
-    sum.false_share += check.false_share;
-    report.false_invisible_solid_angle_worst =
-        std::max(report.false_invisible_solid_angle_worst, check.worst_false_share);
-    report.examples.insert(report.examples.end(), check.examples.begin(), check.examples.end());
+    add(sum.wrong, check.wrong), add(sum.narrow, check.narrow);
     sum.pvs_objects += check.pvs_objects, sum.seen_objects += check.seen_objects;
     sum.pvs_buildings += check.pvs_buildings, sum.seen_buildings += check.seen_buildings;
     sum.pvs_triangles += check.pvs_triangles, sum.seen_triangles += check.seen_triangles;
@@ -73,7 +75,12 @@ VerifyReport add_up(const std::vector<CellCheck>& checks) {
                seen_objects = static_cast<double>(sum.seen_objects);
   const double pvs_triangles = static_cast<double>(sum.pvs_triangles),
                seen_triangles = static_cast<double>(sum.seen_triangles);
-  report.false_invisible_solid_angle_mean = ratio(sum.false_share, looked);
+  report.false_invisible_objects = sum.wrong.objects, report.false_invisible_triangles = sum.wrong.triangles;
+  report.false_invisible_solid_angle_mean = ratio(sum.wrong.share, looked);
+  report.false_invisible_solid_angle_worst = sum.wrong.worst_share;
+  report.narrow_gap_objects = sum.narrow.objects, report.narrow_gap_triangles = sum.narrow.triangles;
+  report.narrow_gap_solid_angle_mean = ratio(sum.narrow.share, looked);
+  report.narrow_gap_solid_angle_worst = sum.narrow.worst_share;
   report.overestimate_objects = ratio(pvs_objects, seen_objects);
   report.overestimate_buildings =
       ratio(static_cast<double>(sum.pvs_buildings), static_cast<double>(sum.seen_buildings));
@@ -90,7 +97,8 @@ VerifyReport add_up(const std::vector<CellCheck>& checks) {
     report.overestimate_objects_median = overestimates[overestimates.size() / 2];
     report.overestimate_objects_worst = overestimates.back();
   }
-  keep_nearest(report.examples);
+  report.examples = nearest(std::move(sum.wrong.examples));
+  report.narrow_gap_examples = nearest(std::move(sum.narrow.examples));
   return report;
 }
 
@@ -111,18 +119,20 @@ VerifyReport verify(const PvsFile& file, const VerifyOptions& options,
                     const std::function<void(uint32_t done, uint32_t total)>& progress) {
   const auto begin = std::chrono::steady_clock::now();
   const RayScene rays(file.city.scene);
+  const double limit_m = narrow_gap_limit_m(file.header.config);
   const std::vector<uint32_t> cells = sample_cells(file.city.cells.size(), options.cells, options.seed);
   std::vector<CellCheck> checks(cells.size());
   std::mutex mutex;
   uint32_t done = 0;
   tbb::parallel_for(size_t{0}, cells.size(), [&](size_t i) {
-    checks[i] = check_cell(file, cells[i], options, rays);
+    checks[i] = check_cell(file, cells[i], options, rays, limit_m);
     const std::lock_guard lock(mutex);
     ++done;
     if (progress) progress(done, static_cast<uint32_t>(cells.size()));
   });
   VerifyReport report = add_up(checks);
   add_certified(file, cells, report);
+  report.narrow_gap_limit_m = limit_m;
   report.elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   report.rays_per_second = ratio(static_cast<double>(report.rays), report.elapsed_s);
   return report;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "scene/error.h"
@@ -56,6 +57,35 @@ TEST(RayScene, TrianglesNearHoldAllThatTheRayMeets) {
       EXPECT_TRUE(std::binary_search(near.begin(), near.end(), *exact));
     }
   }
+}
+
+TEST(RayScene, TrianglesAroundHoldAllThatReachIntoTheBall) {
+  const Scene scene = Street::scene();
+  const RayScene rays(scene);
+  Random random(7);
+  const auto real = [&](float from, float to) { return from + random.unit() * (to - from); };
+  size_t inside = 0, found_in_all = 0;
+  for (int i = 0; i < 300; ++i) {
+    const glm::vec3 center{real(-5, 40), real(-40, 50), real(-1, 15)};
+    const float radius_m = real(0.1f, 8);
+    const auto found = rays.triangles_around(center, radius_m);
+    EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
+    found_in_all += found.size();
+    for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
+      const auto corner = [&](int k) { return scene.vertices[scene.triangles[t][k]]; };
+      for (int sample = 0; sample < 100; ++sample) {
+        const float root = std::sqrt(random.unit()), side = random.unit();
+        const glm::vec3 point =
+            corner(0) * (1 - root) + corner(1) * (root * (1 - side)) + corner(2) * (root * side);
+        if (glm::distance(point, center) >= radius_m) continue;
+        ++inside;
+        EXPECT_TRUE(std::binary_search(found.begin(), found.end(), t));
+        break;
+      }
+    }
+  }
+  EXPECT_GT(inside, 100u);
+  EXPECT_LT(found_in_all, 300 * scene.triangles.size() / 2) << "not simply all of them";
 }
 
 TEST(RayScene, BlockedByAWallAndByTouchingIt) {

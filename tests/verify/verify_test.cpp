@@ -163,6 +163,82 @@ TEST(Verify, CellWithoutAnEyePointIsCountedAndNothingCheckedIsNotPassed) {
   EXPECT_NE(describe(report, file).find("nothing was checked"), std::string::npos);
 }
 
+// The street's wall with slits in it, seeds of 0.25 m. What is behind the wall is not in the row.
+PvsFile slit_wall(std::vector<float> widths) {
+  Scene scene = Street::scene();
+  const uint32_t wall = Street::wall;
+  float from = -30;
+  std::vector<Box> pieces;
+  for (const float width : widths) {
+    const float at = width > 0.5f ? 1.5f : 0;
+    pieces.push_back({{10, from, 0}, {11, at, 12}});
+    from = at + width;
+  }
+  pieces.push_back({{10, from, 0}, {11, 30, 12}});
+  PvsRow row = Street::row({Street::ground, wall, Street::tower});
+  for (size_t i = 1; i < pieces.size(); ++i)
+    row.push_back({toy::add_box(scene, "piece " + std::to_string(i), pieces[i]), completely_visible});
+  for (uint64_t t = scene.objects[wall].triangle_begin; t < scene.objects[wall].triangle_end; ++t) {
+    for (int k = 0; k < 3; ++k) {
+      float& y = scene.vertices[scene.triangles[t][k]].y;
+      y = std::min(y, pieces[0].upper.y);
+    }
+  }
+  PvsFile file = toy::make_file(std::move(scene), {Street::cell()}, {row});
+  file.header.config = "[navigation]\nseed_size = 0.25\n";
+  return file;
+}
+
+TEST(Verify, ASlitOfOneSeedIsCountedAndPasses) {
+  const PvsFile file = slit_wall({0.25f});
+  const VerifyReport report = verify(file, few);
+  EXPECT_TRUE(report.passed());
+  EXPECT_EQ(report.false_invisible_objects + report.false_invisible_triangles, 0u);
+  EXPECT_EQ(report.false_invisible_solid_angle_worst, 0);
+  EXPECT_EQ(report.narrow_gap_objects, 1u);
+  EXPECT_GT(report.narrow_gap_triangles, 0u);
+  EXPECT_GT(report.narrow_gap_solid_angle_mean, 0);
+  EXPECT_GE(report.narrow_gap_solid_angle_worst, report.narrow_gap_solid_angle_mean);
+  EXPECT_EQ(report.narrow_gap_limit_m, 0.5);
+  EXPECT_TRUE(report.examples.empty());
+  ASSERT_EQ(report.narrow_gap_examples.size(), 1u);
+  EXPECT_EQ(report.narrow_gap_examples[0].object, Street::hut);
+  EXPECT_NEAR(report.narrow_gap_examples[0].gap.width_m, 0.25f, 0.02f);
+  expect_reproduces(file, report.narrow_gap_examples[0]);
+  EXPECT_NE(describe(report, file).find("narrow gaps      1 objects"), std::string::npos);
+  EXPECT_NE(describe(report, file).find("passed: through nothing but gaps"), std::string::npos);
+  const auto json = nlohmann::json::parse(describe_json(report, file));
+  EXPECT_EQ(json["passed"], true);
+  EXPECT_EQ(json["false_invisible_objects"], 0);
+  EXPECT_EQ(json["narrow_gap_objects"], 1);
+  EXPECT_EQ(json["narrow_gap_triangles"], report.narrow_gap_triangles);
+  EXPECT_EQ(json["narrow_gap_examples"][0]["name"], "hut");
+}
+
+TEST(Verify, ASlitOfThreeSeedsIsAFault) {
+  const PvsFile file = slit_wall({0.75f});
+  const VerifyReport report = verify(file, few);
+  EXPECT_FALSE(report.passed());
+  EXPECT_EQ(report.false_invisible_objects, 1u);
+  EXPECT_EQ(report.narrow_gap_objects, 0u);
+}
+
+TEST(Verify, OneRayPastTheNarrowGapMakesItAFault) {
+  const VerifyReport report = verify(slit_wall({0.25f, 0.75f}), few);
+  EXPECT_FALSE(report.passed());
+  EXPECT_EQ(report.false_invisible_objects, 1u);
+  EXPECT_EQ(report.narrow_gap_objects, 0u) << "the hut is counted once";
+  EXPECT_EQ(report.narrow_gap_triangles, 0u) << "and so is its front";
+}
+
+TEST(Verify, NothingIsExcusedInAFileThatDoesNotSayItsSeeds) {
+  PvsFile file = slit_wall({0.25f});
+  file.header.config.clear();
+  const VerifyReport report = verify(file, few);
+  EXPECT_FALSE(report.passed());
+  EXPECT_EQ(report.narrow_gap_objects, 0u);
+}
+
 PvsFile nine_cells() {
   std::vector<Box> cells;
   std::vector<PvsRow> rows;
