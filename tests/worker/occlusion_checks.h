@@ -1,0 +1,113 @@
+// What every method has to pass: rays into the model, and worker/reference/cell_reference.h.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "gl/egl_context.h"
+#include "tests/worker/occlusion_city.h"
+#include "verify/verify.h"
+#include "worker/occlusion_method.h"
+#include "worker/reference/cell_reference.h"
+
+namespace veduta::test {
+
+/// Every method has to pass every test of occlusion.
+inline const std::vector<std::string> occlusion_methods{"panorama"};
+
+inline bool gl_is_here() {
+  try {
+    EglContext("software");
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+#define SKIP_WITHOUT_GL() \
+  if (!test::gl_is_here()) GTEST_SKIP() << "no EGL device with OpenGL 4.3 here"
+
+/// The answers of a method for cells.
+inline std::vector<CellOcclusion> answers_of(const std::string& method, const OcclusionInput& input,
+                                             const std::vector<uint32_t>& cells) {
+  const EglContext context("software");
+  const auto occlusion = make_occlusion_method(method, input);
+  std::vector<CellOcclusion> answers;
+  occlusion->bake(cells, [&](const CellOcclusion& answer) { answers.push_back(answer); });
+  EXPECT_EQ(answers.size(), cells.size());
+  return answers;
+}
+
+/// What rays into the model say of the rows that the answers make. The file names no size of seeds, so that
+/// nothing is excused for being seen through a narrow gap.
+inline VerifyReport shoot(const OcclusionCity& city, const std::vector<CellOcclusion>& answers,
+                          uint64_t rays_per_cell) {
+  PvsFile file;
+  file.city = city.city();
+  file.city.cells.clear();  // those that were not asked for are left out
+  file.row_begin.push_back(0);
+  for (const CellOcclusion& answer : answers) {
+    file.cell_row.push_back(static_cast<uint32_t>(file.city.cells.size()));
+    file.cell_status.push_back(CellStatus::baked);
+    file.bake_us.push_back(0);
+    file.overestimate.push_back(0);
+    file.city.cells.push_back(city.city().cells[answer.cell]);
+    for (uint32_t o = 0; o < city.city().scene.objects.size(); ++o) {
+      const VisibilityIndex index = city.row_entry(answer, o);
+      if (!index.nothing()) file.entries.push_back({o, index});
+    }
+    file.row_begin.push_back(file.entries.size());
+  }
+  VerifyOptions options;
+  options.cells = static_cast<uint32_t>(answers.size());
+  options.rays_per_cell = rays_per_cell;
+  return verify(file, options);
+}
+
+inline std::string words(const OcclusionCity& city, const reference::Witness& witness) {
+  const auto point = [](const glm::dvec3& p) {
+    return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) + ")";
+  };
+  return city.city().scene.objects[witness.object].name +
+         (witness.slice ? ", slice " + std::to_string(*witness.slice) : "") + ", from " + point(witness.eye) +
+         " to " + point(witness.point);
+}
+
+/// No ray meets what a row does not draw; nothing is hidden that no occluder hides.
+inline void expect_nothing_wrong(const OcclusionCity& city, const reference::CellReference& exact,
+                                 const std::vector<CellOcclusion>& answers, uint64_t rays_per_cell,
+                                 size_t eyes_per_cell) {
+  const VerifyReport report = shoot(city, answers, rays_per_cell);
+  EXPECT_TRUE(report.passed()) << describe(report, city.file());
+  for (const CellOcclusion& answer : answers) {
+    const auto wrong = exact.wrongly_hidden(answer, city.eyes(answer.cell, eyes_per_cell));
+    EXPECT_TRUE(wrong.empty()) << wrong.size() << " boxes of cell " << answer.cell
+                               << " are wrongly hidden, first: " << words(city, wrong.front());
+  }
+}
+
+/// How many boxes the reference finds wrongly hidden in answers from occluders that may not be what they
+/// should.
+inline size_t noticed(const OcclusionCity& city, const reference::CellReference& exact,
+                      const std::string& method, const std::vector<WindowOccluders>& windows,
+                      const std::vector<uint32_t>& cells, size_t eyes_per_cell) {
+  size_t wrong = 0;
+  for (const CellOcclusion& answer :
+       answers_of(method, {city.city(), city.slices(), windows, city.settings}, cells))
+    wrong += exact.wrongly_hidden(answer, city.eyes(answer.cell, eyes_per_cell)).size();
+  return wrong;
+}
+
+/// Prepares the city; for each method, bakes all of its cells, checks the answers and asks.
+template <typename Ask>
+void check_methods(OcclusionCity& city, const Ask& ask) {
+  city.prepare();
+  const reference::CellReference exact(city.input());
+  for (const std::string& method : occlusion_methods) {
+    SCOPED_TRACE(method);
+    const auto answers = answers_of(method, city.input(), city.all_cells());
+    ASSERT_FALSE(answers.empty());
+    expect_nothing_wrong(city, exact, answers, 60'000, 27);
+    ask(answers);
+  }
+}
+
+}  // namespace veduta::test
