@@ -21,7 +21,7 @@ namespace veduta::bench {
 namespace {
 
 constexpr double least_loop_s = 0.05;
-constexpr int tries = 3;
+constexpr int tries = 5;
 
 /// A box to the rectangle and nearest depth that it takes on a face, then four texels of the level at which
 /// the rectangle is two texels wide.

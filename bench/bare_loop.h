@@ -8,7 +8,7 @@
 
 namespace veduta::bench {
 
-/// All of it into one cube face of 32-bit float depth, nothing else. Each the best of three.
+/// All of it into one cube face of 32-bit float depth, nothing else. Each the best of five.
 struct BareLimits {
   double triangles_per_s = 0;           ///< of two pixels each, every one of them nearer than what is there
   double streamed_triangles_per_s = 0;  ///< the same, vertices sent anew each time
