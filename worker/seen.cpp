@@ -123,7 +123,7 @@ struct SeenSampler::Tracer {
           step > 0 ? std::floor((static_cast<double>(point[axis]) - box.lower[axis]) / step) : 0;
       return static_cast<uint32_t>(std::clamp(number, first - 1.0, last - 1.0));
     };
-    const auto height = static_cast<uint8_t>(slice(2, n.z, t.z_first, t.z_last));
+    const auto height = static_cast<uint8_t>(t.z_last - 1);
     const uint32_t begin = slices.object_slice_begin[object];
     for (const uint32_t vertical :
          {begin + slice(0, n.x, t.x_first, t.x_last), begin + n.x + slice(1, n.y, t.y_first, t.y_last)})

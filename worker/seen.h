@@ -17,8 +17,9 @@ namespace veduta {
 struct Seen {
   std::vector<glm::vec3> eyes;  ///< where the rays come from
   std::vector<uint8_t> object;  ///< [N] 1: a ray met it
-  std::vector<uint8_t> lowest;  ///< [vertical slices] the lowest z-slice (from 0) in which a ray met the
-                                ///< object in this slice; the object's count of z-slices: none did
+  std::vector<uint8_t> lowest;  ///< [vertical slices] of the triangles that a ray met in this slice, the
+                                ///< lowest last z-slice (from 0): the first box (SliceBoxes) that is seen;
+                                ///< the object's count of z-slices: none is
   uint32_t objects = 0;         ///< how many ones `object` has
   uint64_t rays = 0;
 };

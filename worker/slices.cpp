@@ -21,15 +21,50 @@ struct Planes {
   int slice(double value) const {
     return step > 0 ? std::clamp(static_cast<int>(std::floor((value - lower) / step)), 0, count - 1) : 0;
   }
+  double plane(int i) const { return lower + i * step; }
 };
 
-/// The part of the polygon in slices [first, last] of an axis. The slab is a little thicker than the slices,
-/// so that rounding makes test boxes larger, never smaller: an occludee that is too large errs towards
-/// visible.
-ClippedTriangle clip_slices(const ClippedTriangle& in, int axis, const Planes& planes, int first, int last) {
+/// From where to where a triangle is along an axis.
+struct Reach {
+  double low, high;
+};
+
+constexpr double coarsest_slice_m = 8;
+constexpr double cost_of_a_slice = 1;  // triangles
+
+/// The triangles that are drawn for nothing in the mean, when what is visible of the object ends anywhere
+/// along the axis: the parts of the axis where a triangle is beyond the end and one of its slices is not. A
+/// row's end may lie on either side, along z on the upper one alone.
+double drawn_for_nothing(const std::vector<Reach>& triangles, const Planes& planes, bool both_sides) {
+  double beyond = 0;
+  for (const Reach& t : triangles) {
+    beyond += planes.plane(planes.slice(t.high) + 1) - t.high;
+    if (both_sides) beyond += t.low - planes.plane(planes.slice(t.low));
+  }
+  return beyond / (planes.step * planes.count);
+}
+
+uint8_t choose_count(const std::vector<Reach>& triangles, double lower, double upper, int most,
+                     bool both_sides) {
+  if (!(upper > lower)) return 1;
+  const int least = static_cast<int>(
+      std::clamp(std::round((upper - lower) / coarsest_slice_m), 1.0, static_cast<double>(most)));
+  int best = least;
+  double best_cost = INFINITY;
+  for (int n = least; n <= most; ++n) {
+    const double cost =
+        drawn_for_nothing(triangles, Planes(lower, upper, n), both_sides) + cost_of_a_slice * n;
+    // Sums in another order, of the same object elsewhere, must not choose another count.
+    if (cost < best_cost - 1e-6) best_cost = cost, best = n;
+  }
+  return static_cast<uint8_t>(best);
+}
+
+/// The part of the polygon in a slice of an axis. The slab is a little thicker than the slice, so that
+/// rounding makes test boxes larger, never smaller: an occludee that is too large errs towards visible.
+ClippedTriangle clip_slice(const ClippedTriangle& in, int axis, const Planes& planes, int i) {
   const double margin = 1e-4 * planes.step + 1e-6;
-  return clip_slab(in, axis, planes.lower + first * planes.step - margin,
-                   planes.lower + (last + 1) * planes.step + margin);
+  return clip_slab(in, axis, planes.plane(i) - margin, planes.plane(i + 1) + margin);
 }
 
 void extend(Box& box, const ClippedTriangle& polygon) {
@@ -49,7 +84,8 @@ std::array<Planes, 3> planes_of(const Scene& scene, size_t object, const SliceCo
           Planes(b.lower.z, b.upper.z, n.z)};
 }
 
-/// Fills the boxes of one object: for each vertical slice the box of each level, then cumulated upwards.
+/// Fills the boxes of one object: for each vertical slice the box of what ends at each level, then cumulated
+/// upwards.
 void fill_boxes(const Scene& scene, uint32_t o, const SliceCounts& n,
                 const std::vector<TriangleSlices>& touched, const VerticalSlice* slice, Box* all) {
   const std::array<Planes, 3> planes = planes_of(scene, o, n);
@@ -59,11 +95,9 @@ void fill_boxes(const Scene& scene, uint32_t o, const SliceCounts& n,
     for (int axis = 0; axis < 2; ++axis) {
       const int first = (axis == 0 ? s.x_first : s.y_first) - 1, last = (axis == 0 ? s.x_last : s.y_last) - 1;
       for (int i = first; i <= last; ++i) {
-        const ClippedTriangle strip = clip_slices(triangle, axis, planes[axis], i, i);
-        for (int h = s.z_first - 1; h <= s.z_last - 1; ++h) {
-          const VerticalSlice& vertical = slice[axis == 0 ? i : n.x + i];
-          extend(all[vertical.first_box + h], clip_slices(strip, 2, planes[2], h, h));
-        }
+        // Whole along z: a row draws a triangle that ends higher, so what hides it need not hide this one.
+        const VerticalSlice& vertical = slice[axis == 0 ? i : n.x + i];
+        extend(all[vertical.first_box + s.z_last - 1], clip_slice(triangle, axis, planes[axis], i));
       }
     }
   });
@@ -75,16 +109,21 @@ void fill_boxes(const Scene& scene, uint32_t o, const SliceCounts& n,
 
 }  // namespace
 
-std::vector<SliceCounts> choose_slices(const Scene& scene, int most, double slice_size_m) {
-  std::vector<SliceCounts> slices;
-  const auto count = [&](float extent) {
-    return static_cast<uint8_t>(std::clamp(std::lround(extent / slice_size_m), 1L, static_cast<long>(most)));
-  };
-  for (size_t o = 0; o < scene.objects.size(); ++o) {
+std::vector<SliceCounts> choose_slices(const Scene& scene, int most) {
+  std::vector<SliceCounts> slices(scene.objects.size());
+  tbb::parallel_for(size_t{0}, scene.objects.size(), [&](size_t o) {
     const Box b = scene.bounds(o);
-    slices.push_back(
-        {count(b.upper.x - b.lower.x), count(b.upper.y - b.lower.y), count(b.upper.z - b.lower.z)});
-  }
+    std::array<std::vector<Reach>, 3> triangles;
+    visit_triangles(scene, o, [&](uint64_t, const std::array<glm::vec3, 3>& corners) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto [low, high] = std::minmax({corners[0][axis], corners[1][axis], corners[2][axis]});
+        triangles[axis].push_back({low, high});
+      }
+    });
+    slices[o] = {choose_count(triangles[0], b.lower.x, b.upper.x, most, true),
+                 choose_count(triangles[1], b.lower.y, b.upper.y, most, true),
+                 choose_count(triangles[2], b.lower.z, b.upper.z, most, false)};
+  });
   return slices;
 }
 

@@ -8,16 +8,19 @@
 
 namespace veduta {
 
-/// How many slices each object is cut into: one for every `slice_size_m` of its extent, at most `most`.
-/// Terrain and buildings alike: slices are also what makes the test boxes of a rotated building tight.
-std::vector<SliceCounts> choose_slices(const Scene& scene, int most, double slice_size_m = 4.0);
+/// How many slices each object is cut into: as many as pay. More slices tell more triangles apart, so fewer
+/// are drawn because they share a slice with what is visible; a slice has to save one triangle in the mean
+/// over where the visible part may end (measured in docs/occlusion.md). At least one for every 8 m, since a
+/// test box of a long object is tight only where it is short; at most `most` along each axis.
+std::vector<SliceCounts> choose_slices(const Scene& scene, int most);
 
 /// The slices that every triangle touches; [T].
 std::vector<TriangleSlices> slice_triangles(const Scene& scene, const std::vector<SliceCounts>& slices);
 
-/// One vertical slice of an object, the unit that is tested: `heights` boxes from first_box on, box h being
-/// tight around the triangles of the slice from the bottom up to z-slice h+1. A box without triangles is
-/// empty.
+/// One vertical slice of an object, the unit that is tested: `heights` boxes from first_box on. Box h is
+/// tight around what lies in the slice of triangles whose last z-slice is at most h+1: of all that a row
+/// which hides z-slices up to h+1 leaves out. (What reaches higher is drawn anyway.) A box without triangles
+/// is empty.
 struct VerticalSlice {
   uint32_t object = 0;
   uint32_t first_box = 0;

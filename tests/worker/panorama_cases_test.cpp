@@ -178,6 +178,10 @@ TEST_F(PanoramaCase, AnOccludedHeightIsThatOfTheHorizon) {
       {0.25, 100,
        test::mesh_of({{{10, -30, -2}, {12, 30, 5.7f}}})});  // rises 4 m above the eye in 10: 8 m in 20
   world.object({{20, -4, 0}, {20.5f, 4, 20}});              // hidden up to 9.7 m, less a pixel or two
+  for (int storey = 0; storey < 20; ++storey) {             // walls in one piece could not be left out below
+    const auto z = static_cast<float>(storey);
+    world.mesh.box({{20, -4, z}, {20.5f, 4, z + 0.9f}});
+  }
   world.resolution = 512;
   world.slice({1, 2, 20});
   const Occlusion occlusion = world.occlusion({eye});
