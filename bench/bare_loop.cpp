@@ -137,7 +137,7 @@ double queries_per_s(BareFace& face) {
 
 double rays_per_s(const City& city) {
   if (city.cells.empty() || city.scene.triangles.empty()) return 0;
-  const RayScene rays(city.scene, RayBuild::quick);
+  const RayScene rays(city.scene);
   std::mt19937 random(1);
   std::normal_distribution<float> normal;
   std::vector<glm::vec3> directions;

@@ -18,17 +18,13 @@ struct Hit {
   float distance_m = 0;
 };
 
-/// How much is spent on the hierarchy before the first ray: `thorough` for millions of rays a cell, `quick`
-/// for a bake, which shoots few and has one in every worker.
-enum class RayBuild { thorough, quick };
-
 /// The triangles of a scene without instances in a bounding-volume hierarchy (Embree, robust mode, both sides
 /// of every triangle are solid). The same scene gives the same hits, ties included, on one machine. Every
 /// member may be called from several threads at once. The scene must outlive it.
 class RayScene {
  public:
   /// \throw Error(bad_input) when the scene has no triangle or 2^32 of them; Error(defect) when Embree fails.
-  explicit RayScene(const Scene& scene, RayBuild build = RayBuild::thorough);
+  explicit RayScene(const Scene& scene);
   ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;

@@ -156,7 +156,7 @@ void SeenSampler::look(uint32_t cell, Seen& seen) const {
     seen.lowest[i] = static_cast<uint8_t>(tracer.slices.slices[i].heights);
   seen.objects = 0, seen.rays = 0;
   if (city.scene.triangles.empty()) return;
-  if (!tracer.rays) tracer.rays = std::make_unique<RayScene>(city.scene, RayBuild::quick);
+  if (!tracer.rays) tracer.rays = std::make_unique<RayScene>(city.scene);
   Random random(look_seed, cell);
   choose_eyes(city.navigation.free, *tracer.rays, city.cells[cell], eyes_per_cell, Random(random.bits()),
               seen.eyes);

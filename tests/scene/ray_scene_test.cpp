@@ -23,12 +23,9 @@ std::optional<uint32_t> met_by_all(const Scene& scene, const glm::vec3& eye, con
   return undrawn_met_first(scene, eye, direction, all, std::vector<uint8_t>(all.size(), 0));
 }
 
-class RaySceneBuilds : public testing::TestWithParam<RayBuild> {};
-INSTANTIATE_TEST_SUITE_P(Builds, RaySceneBuilds, testing::Values(RayBuild::thorough, RayBuild::quick));
-
-TEST_P(RaySceneBuilds, AgreesWithExactArithmeticOverAllTriangles) {
+TEST(RayScene, AgreesWithExactArithmeticOverAllTriangles) {
   const Scene scene = Street::scene();
-  const RayScene rays(scene, GetParam());
+  const RayScene rays(scene);
   Random random(5);
   const glm::vec3 eye{1.25f, 2.5f, 1.7f};
   const auto directions = sphere_directions(3001, random);
