@@ -194,7 +194,7 @@ TEST(OcclusionCase, CoordinatesAtTenMillionMetres) {
   std::vector<std::vector<CellOcclusion>> first;
   for (const double shift : {0.0, 1e7}) {
     OcclusionCity city;
-    city.shift = {shift, shift, 0};
+    city.place = [&](const glm::dvec2& p) { return p + shift; };
     city.add_ground(60);
     city.add("wall", {10, -40, 0}, {20, 40, 12});
     city.add("behind", {30, -3, 0}, {36, 3, 3});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <optional>
@@ -40,12 +41,10 @@ class OcclusionCity {
   /// A prism over a convex outline, counter-clockwise.
   void add_prism(const std::vector<glm::dvec2>& outline, double bottom, double top) {
     for (const double z : {bottom, top}) {
-      for (const glm::dvec2& p : outline)
-        text_ += "v " + std::to_string(p.x + shift.x) + " " + std::to_string(p.y + shift.y) + " " +
-                 std::to_string(z) + "\n";
+      for (const glm::dvec2& p : outline) add_vertex({p, z});
     }
     const int n = static_cast<int>(outline.size());
-    const auto corner = [&](int i) { return " " + std::to_string(vertices_ + 1 + i); };
+    const auto corner = [&](int i) { return " " + std::to_string(i - 2 * n); };
     std::string lid = "f", floor = "f";
     for (int i = 0; i < n; ++i) {
       const int next = (i + 1) % n;
@@ -53,24 +52,21 @@ class OcclusionCity {
       lid += corner(n + i), floor += corner(n - 1 - i);
     }
     text_ += lid + "\n" + floor + "\n";
-    vertices_ += 2 * n;
   }
   /// The objects of a scene that was made in memory.
   void add_scene(const Scene& scene) {
     for (size_t o = 0; o < scene.objects.size(); ++o) {
       begin(scene.objects[o].name);
       visit_triangles(scene, o, [&](uint64_t, const std::array<glm::vec3, 3>& corners) {
-        for (const glm::vec3& c : corners)
-          text_ += "v " + std::to_string(c.x) + " " + std::to_string(c.y) + " " + std::to_string(c.z) + "\n";
+        for (const glm::vec3& c : corners) add_vertex(c);
         text_ += "f -3 -2 -1\n";
-        vertices_ += 3;
       });
     }
   }
   void add_ground(double half_m) { add("ground", {-half_m, -half_m, -1}, {half_m, half_m, 0}); }
   void cells_within(double x0, double y0, double x1, double y1) {
     for (const auto& [x, y] : {std::pair{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}})
-      settings.cells.region.push_back({x + shift.x, y + shift.y});
+      settings.cells.region.push_back({place({x, y}).x, place({x, y}).y});
   }
 
   void prepare() {
@@ -146,10 +142,11 @@ class OcclusionCity {
     return eye_points(city().cells[cell], count, city().navigation.free, *rays_, veduta::Random(cell));
   }
 
-  /// The answer for the cell at a point, in the model's coordinates less the shift.
+  /// The answer for the cell at a point, before that was placed.
   const CellOcclusion& at(const std::vector<CellOcclusion>& answers, const glm::dvec3& eye) const {
     const auto& o = city().scene.origin;
-    const int64_t cell = file_.find_cell(glm::vec3(eye + shift - glm::dvec3(o[0], o[1], o[2])));
+    const int64_t cell =
+        file_.find_cell(glm::vec3(glm::dvec3(place(eye), eye.z) - glm::dvec3(o[0], o[1], o[2])));
     for (const CellOcclusion& answer : answers) {
       if (answer.cell == cell) return answer;
     }
@@ -171,9 +168,15 @@ class OcclusionCity {
   }
 
   Settings settings;
-  glm::dvec3 shift{0};  ///< added to all that is added after it was set
+  /// Where a point comes to lie, of all that is added after this was set.
+  std::function<glm::dvec2(const glm::dvec2&)> place = [](const glm::dvec2& p) { return p; };
 
  private:
+  void add_vertex(const glm::dvec3& p) {
+    const glm::dvec2 placed = place(p);
+    text_ +=
+        "v " + std::to_string(placed.x) + " " + std::to_string(placed.y) + " " + std::to_string(p.z) + "\n";
+  }
   void finish() {
     slices_ = slice_boxes(city().scene, city().slices, city().triangle_slices);
     counts_.emplace(city().scene, city().slices, city().triangle_slices);
@@ -182,7 +185,6 @@ class OcclusionCity {
 
   TemporaryDirectory directory_;
   std::string text_;
-  int vertices_ = 0;
   PvsFile file_;
   std::vector<WindowOccluders> windows_;
   SliceBoxes slices_;

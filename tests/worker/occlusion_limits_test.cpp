@@ -1,5 +1,7 @@
 // The hard cases of occlusion that pixels, rings and the faces of a cube make, each by name (DESIGN §11), for
 // every method; checked as those of occlusion_cases_test.cpp.
+#include <algorithm>
+#include <glm/mat2x2.hpp>
 #include <map>
 
 #include "tests/worker/occlusion_checks.h"
@@ -94,6 +96,25 @@ TEST(OcclusionLimit, NearPlaneAndEyesThatTouchWalls) {
   });
 }
 
+// The bounds of two posts hold the cell and its middle: nothing of them can be projected.
+TEST(OcclusionLimit, BoundsAroundTheCell) {
+  SKIP_WITHOUT_GL();
+  OcclusionCity city;
+  city.add_ground(40);
+  city.begin("posts");
+  city.add_box({-8, -8, 0}, {-7.8, -7.8, 4});
+  city.add_box({9, 9, 0}, {9.2, 9.2, 4});
+  city.add("wall", {12, -30, 0}, {20, 30, 10});
+  city.add("behind", {24, -2, 0}, {28, 2, 3});
+  city.cells_within(0, 0, 4, 4);
+  check_methods(city, [&](const auto& answers) {
+    for (const CellOcclusion& answer : answers) {
+      EXPECT_FALSE(city.hides(answer, "posts"));
+      EXPECT_TRUE(city.hides(answer, "behind"));
+    }
+  });
+}
+
 // Rings take turns: an occluder that straddles the limit of one is drawn in part by two, each with another
 // amount taken off.
 TEST(OcclusionLimit, OccluderAcrossTheLimitOfARing) {
@@ -149,6 +170,38 @@ TEST(OcclusionLimit, BeyondTheLastRing) {
       const CellOcclusion& answer = city.at(answers, {1, 0, 1.7});
       EXPECT_TRUE(city.hides(answer, "behind_near"));
       EXPECT_EQ(city.hides(answer, "behind_far"), last);
+    }
+  }
+}
+
+// A city that is turned or mirrored is the same city. (Not so its slices: walls are cut into triangles along
+// other diagonals.)
+TEST(OcclusionLimit, TurnedAndMirrored) {
+  SKIP_WITHOUT_GL();
+  std::map<std::string, std::vector<uint32_t>> upright;  // what is visible, by method
+  for (const glm::dmat2& turn : {glm::dmat2(1), glm::dmat2(0, 1, -1, 0), glm::dmat2(-1, 0, 0, 1)}) {
+    OcclusionCity city;
+    city.place = [&](const glm::dvec2& p) { return turn * p; };
+    city.add_ground(40);
+    test::Random random(8);
+    for (int n = 0; n < 70; ++n) {
+      const glm::dvec2 p(random.real(-38, 30), random.real(-38, 30)), q(random.real(1, 9), random.real(3, 9));
+      if (p.x < 7 && p.x + q.x > -7 && p.y < 7 && p.y + q.y > -7) continue;
+      city.add(std::to_string(n), {p, 0}, {p + q, random.real(3, 12)});
+    }
+    city.cells_within(-4, -4, 4, 4);
+    city.prepare();
+    for (const std::string& method : test::occlusion_methods) {
+      SCOPED_TRACE(method);
+      const auto answers = test::answers_of(method, city.input(), city.all_cells());
+      std::vector<uint32_t> all;
+      for (const glm::dvec2& eye : {glm::dvec2(-3, -3), {-3, 1}, {1, -3}, {1, 1}}) {
+        const Occlusion& found = city.at(answers, {eye, 1.7}).occlusion;
+        all.insert(all.end(), found.visible.begin(), found.visible.end());
+      }
+      const auto hidden = static_cast<size_t>(std::ranges::count(all, 0u));
+      EXPECT_GT(hidden, all.size() / 5);
+      EXPECT_EQ(upright.try_emplace(method, all).first->second, all);
     }
   }
 }
