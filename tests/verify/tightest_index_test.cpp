@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "verify/random.h"
+#include "scene/city/random.h"
 
 namespace veduta {
 namespace {
