@@ -28,6 +28,10 @@ struct VertexArrayKind {
   static void make(GLuint* id) { glGenVertexArrays(1, id); }
   static void drop(const GLuint* id) { glDeleteVertexArrays(1, id); }
 };
+struct QueryKind {
+  static void make(GLuint* id) { glGenQueries(1, id); }
+  static void drop(const GLuint* id) { glDeleteQueries(1, id); }
+};
 
 /// One GL object; made when constructed, deleted with the handle. Move only. Must not outlive its context.
 template <class ObjectKind>
@@ -56,5 +60,6 @@ using GlTexture = Handle<TextureKind>;
 using GlFramebuffer = Handle<FramebufferKind>;
 using GlRenderbuffer = Handle<RenderbufferKind>;
 using GlVertexArray = Handle<VertexArrayKind>;
+using GlQuery = Handle<QueryKind>;
 
 }  // namespace veduta
