@@ -1,86 +1,12 @@
 #include "worker/zoom.h"
 
 #include <algorithm>
-#include <chrono>
 #include <glm/vector_relational.hpp>
-#include <limits>
-#include <map>
 #include <optional>
-#include <span>
 
-#include "worker/cube_face.h"
-#include "worker/occludee_quadtree.h"
-#include "worker/zoom_renderer.h"
+#include "worker/zoom_state.h"
 
 namespace veduta {
-namespace {
-
-// In place of the number of a question.
-constexpr uint32_t visible_unasked = UINT32_MAX, hidden_unasked = UINT32_MAX - 1;
-
-static_assert(face_count <= ZoomRenderer::pictures);
-
-double now_ms() {
-  const std::chrono::duration<double, std::milli> t = std::chrono::steady_clock::now().time_since_epoch();
-  return t.count();
-}
-
-/// Does a box (relative to the eye) reach to where no section looks: below 45 degrees?
-bool reaches_below(const Box& b) {
-  const Box downwards{{b.lower.x, b.lower.y, -b.upper.z}, {b.upper.x, b.upper.y, -b.lower.z}};
-  return nearest_depth(downwards) <= downwards.upper.z;
-}
-
-}  // namespace
-
-struct Zoom::State {
-  State(const std::vector<Box>& boxes, const SliceBoxes& s, const std::vector<WindowOccluders>& w)
-      : object_boxes(boxes), slices(s), windows(w), quadtree(make_occludee_quadtree(boxes)) {}
-
-  std::vector<Box> object_boxes;
-  const SliceBoxes& slices;
-  const std::vector<WindowOccluders>& windows;
-  OccludeeQuadtree quadtree;
-  ZoomRenderer renderer;
-  std::map<const WindowOccluders*, ZoomOccluders> occluders;  // of windows that were needed so far
-  Occlusion occlusion;
-  std::vector<uint8_t> all_seen;  // [N] 1: nothing of it is hidden, further parts change nothing
-  OcclusionCounters counters;
-  bool measured = false;
-
-  std::vector<uint32_t> blocks, next_blocks;  // of the level of the quadtree in work
-  std::vector<uint32_t> candidates;           // objects of visible leaves
-  struct Tested {
-    uint32_t object;
-    int picture;
-    ZoomView view;
-    uint32_t question;
-  };
-  std::vector<Tested> batch;
-  std::vector<uint32_t> questions;  // of the blocks of a level, or of the heights of slices
-
-  ZoomOccluders* occluders_for(const glm::dvec3& half_extent_m);
-  void see_all(uint32_t object);
-  uint32_t ask(const ZoomView& view, const Box& box);
-  uint32_t ask_block(int face, const ZoomView& view, const Box& box);
-  void collect();
-  bool shows(uint32_t question) const;
-  void find_candidates(const glm::vec3& eye, ZoomOccluders* shrunk);
-  void test_level(const std::array<ZoomView, face_count>& sections);
-  void test_objects(std::span<const uint32_t> objects, const glm::vec3& eye, ZoomOccluders* shrunk);
-  void ask_slices(uint32_t object, const ZoomView& view);
-  void lower_occluded();
-
-  /// Adds the time of a step to a stage, where asked: waits for the renderer then.
-  template <class Work>
-  void stage(double& stage_ms, Work&& work) {
-    if (!measured) return work();
-    const double began = now_ms();
-    work();
-    glFinish();
-    stage_ms += now_ms() - began;
-  }
-};
 
 ZoomOccluders* Zoom::State::occluders_for(const glm::dvec3& half_extent_m) {
   const auto volume = [](const glm::dvec3& e) { return e.x * e.y * e.z; };
@@ -109,16 +35,6 @@ uint32_t Zoom::State::ask(const ZoomView& view, const Box& box) {
   return renderer.ask(fat);
 }
 
-/// The part of a box that reaches into a section.
-uint32_t Zoom::State::ask_block(int face, const ZoomView& view, const Box& box) {
-  const Box fat = view.fattened(box);
-  const Box in_face = to_face(face, {fat.lower - view.eye, fat.upper - view.eye});
-  const float nearest_m = nearest_depth(in_face);
-  if (nearest_m > in_face.upper.z) return hidden_unasked;
-  if (nearest_m < ZoomView::near_m) return visible_unasked;
-  return renderer.ask(fat);
-}
-
 void Zoom::State::collect() {
   stage(counters.read_back_ms, [&] { renderer.collect(); });
   ++counters.read_backs;
@@ -126,50 +42,6 @@ void Zoom::State::collect() {
 
 bool Zoom::State::shows(uint32_t question) const {
   return question == visible_unasked || (question != hidden_unasked && renderer.shows(question));
-}
-
-/// Algorithm 4.1, first half: culls portions of the scene in the 90-degree sections, a level at a time.
-void Zoom::State::find_candidates(const glm::vec3& eye, ZoomOccluders* shrunk) {
-  candidates.clear();
-  if (quadtree.blocks.empty()) return;
-  std::array<ZoomView, face_count> sections;
-  stage(counters.occluders_ms, [&] {
-    for (int face = 0; face < face_count; ++face) {
-      sections[face] = section(face, eye);
-      counters.occluder_triangles +=
-          renderer.draw(face, sections[face], shrunk, std::numeric_limits<float>::max());
-    }
-  });
-  blocks.assign(1, 0);
-  while (!blocks.empty()) test_level(sections);
-}
-
-void Zoom::State::test_level(const std::array<ZoomView, face_count>& sections) {
-  questions.assign(blocks.size() * face_count, hidden_unasked);
-  stage(counters.boxes_ms, [&] {
-    for (int face = 0; face < face_count; ++face) {
-      renderer.look_at(face, sections[face]);
-      for (size_t b = 0; b < blocks.size(); ++b)
-        questions[b * face_count + face] = ask_block(face, sections[face], quadtree.blocks[blocks[b]].bounds);
-    }
-  });
-  counters.boxes += blocks.size();
-  collect();
-  const glm::vec3& eye = sections[0].eye;
-  next_blocks.clear();
-  for (size_t b = 0; b < blocks.size(); ++b) {
-    const QuadtreeBlock& block = quadtree.blocks[blocks[b]];
-    const auto first = questions.begin() + static_cast<std::ptrdiff_t>(b * face_count);
-    if (!reaches_below({block.bounds.lower - eye, block.bounds.upper - eye}) &&
-        std::none_of(first, first + face_count, [&](uint32_t question) { return shows(question); }))
-      continue;
-    for (uint32_t c = 0; c < block.children; ++c) next_blocks.push_back(block.first_child + c);
-    if (block.children > 0) continue;
-    for (uint32_t n = block.first; n < block.first + block.count; ++n) {
-      if (all_seen[quadtree.objects[n]] == 0) candidates.push_back(quadtree.objects[n]);
-    }
-  }
-  blocks.swap(next_blocks);
 }
 
 /// Algorithm 4.1, second half, for as many candidates as there are pictures.
@@ -267,7 +139,7 @@ void Zoom::begin_cell() {
 void Zoom::add_part(const glm::vec3& center, const glm::dvec3& half_extent_m) {
   State& s = *state_;
   OcclusionCounters& c = s.counters;
-  const double began = now_ms();
+  const double began = State::now_ms();
   const auto in_stages = [&] { return c.occluders_ms + c.boxes_ms + c.slices_ms + c.read_back_ms; };
   const double stages_before = in_stages();
   {
@@ -281,7 +153,7 @@ void Zoom::add_part(const glm::vec3& center, const glm::dvec3& half_extent_m) {
   }
   ++c.parts;
   c.queries = s.renderer.queries();
-  if (s.measured) c.host_ms += now_ms() - began - (in_stages() - stages_before);
+  if (s.measured) c.host_ms += State::now_ms() - began - (in_stages() - stages_before);
 }
 
 const Occlusion& Zoom::finish_cell() const {
