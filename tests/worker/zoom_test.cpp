@@ -79,15 +79,30 @@ TEST_F(ZoomTest, AtTheEyeIsVisible) {
   EXPECT_TRUE(hidden(room, {{10, 10, -7}, {11, 11, 1}}));
 }
 
+/// An object of four storeys, 8 m each, with a little air between them.
+World storeys_behind_the_wall(float y0, float y1, SliceCounts slices) {
+  World world = world_of({wall}, {{{20, y0, 0}, {21, y1, 7.9f}}});
+  for (int storey = 1; storey < 4; ++storey) {
+    const auto z = static_cast<float>(8 * storey);
+    world.mesh.box({{20, y0, z + 0.1f}, {21, y1, z + 7.9f}});
+  }
+  world.objects[0].upper.z = 31.9f;
+  world.slice(slices);
+  return world;
+}
+
 TEST_F(ZoomTest, OccludedHeightsCountZSlicesFromBelow) {
-  // Behind the wall, 8 m high, what is 20 m off is hidden up to 14.3 m. Four z-slices of 8 m.
-  const Occlusion occlusion = zoom_occlusion(
-      world_of({wall}, {{{20, -2, 0}, {21, 2, 32}}, {{20, -2, 0}, {21, 2, 12}}}, {2, 2, 4}), {eye});
-  EXPECT_EQ(occlusion.visible, (std::vector<uint32_t>{1, 0}));
-  EXPECT_EQ(occlusion.occluded, (std::vector<uint32_t>{1, 1, 1, 1, 4, 4, 4, 4}));
+  // Behind the wall, 8 m high, what is 20 m off is hidden up to 14.3 m.
+  const Occlusion narrow = zoom_occlusion(storeys_behind_the_wall(-2, 2, {1, 2, 4}), {eye});
+  EXPECT_EQ(narrow.visible[0], 1u);
+  EXPECT_EQ(narrow.occluded, (std::vector<uint32_t>{1, 1, 1}));
   // One end is beside the wall: there, nothing is hidden.
-  const Occlusion wide = zoom_occlusion(world_of({wall}, {{{20, -16, 0}, {21, 4, 32}}}, {1, 4, 4}), {eye});
-  EXPECT_EQ(wide.occluded, (std::vector<uint32_t>{0, 0, 0, 1, 1}));
+  EXPECT_EQ(zoom_occlusion(storeys_behind_the_wall(-16, 4, {1, 4, 4}), {eye}).occluded,
+            (std::vector<uint32_t>{0, 0, 0, 1, 1}));
+  // Of what is hidden as a whole, all is.
+  const Occlusion low = zoom_occlusion(world_of({wall}, {{{20, -2, 0}, {21, 2, 12}}}, {2, 2, 4}), {eye});
+  EXPECT_EQ(low.visible[0], 0u);
+  EXPECT_EQ(low.occluded, (std::vector<uint32_t>{4, 4, 4, 4}));
 }
 
 /// The occluders as a soup, in double.
@@ -244,7 +259,7 @@ TEST_F(ZoomTest, CountsAndTimesItsWork) {
   zoom.add_part(eye, world.half_extent_m);
   const OcclusionCounters once = zoom.counters();
   EXPECT_EQ(once.parts, 1u);
-  EXPECT_GT(once.queries, 100u);
+  EXPECT_GT(once.queries, 40u);
   EXPECT_GT(once.occluder_triangles, 500u);
   EXPECT_GT(once.read_backs, 2u);
   EXPECT_EQ(once.occluders_ms + once.boxes_ms + once.slices_ms + once.host_ms, 0) << "not asked for";
