@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "scene/city/random.h"
+#include "scene/random.h"
 
 namespace veduta {
 namespace {
