@@ -131,8 +131,8 @@ RayScene::RayScene(const Scene& scene) {
 
 RayScene::~RayScene() = default;
 
-void RayScene::first_hits(const glm::vec3& eye, std::span<const glm::vec3> directions,
-                          std::span<Hit> hits) const {
+void RayScene::first_hits(const glm::vec3& eye, std::span<const glm::vec3> directions, std::span<Hit> hits,
+                          RayOrder order) const {
   constexpr size_t width = 16;
   alignas(64) RTCRayHit16 packet;
   alignas(64) int valid[width];
@@ -149,7 +149,8 @@ void RayScene::first_hits(const glm::vec3& eye, std::span<const glm::vec3> direc
     }
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    context.flags = order == RayOrder::ordered ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                               : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     rtcIntersect16(valid, tracer_->triangles.get(), &context, &packet);
     for (size_t i = 0; i < count; ++i) {
       const bool met = packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;

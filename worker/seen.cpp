@@ -99,9 +99,9 @@ struct SeenSampler::Tracer {
   }
 
   // Shoots `directions` from an eye and marks what they meet.
-  void shoot(const glm::vec3& eye, Seen& seen) {
+  void shoot(const glm::vec3& eye, RayOrder order, Seen& seen) {
     hits.resize(directions.size());
-    rays->first_hits(eye, directions, hits);
+    rays->first_hits(eye, directions, hits, order);
     for (size_t i = 0; i < hits.size(); ++i)
       if (hits[i].triangle != Hit::none)
         mark(hits[i].triangle, eye + directions[i] * hits[i].distance_m, seen);
@@ -162,7 +162,7 @@ void SeenSampler::look(uint32_t cell, Seen& seen) const {
               seen.eyes);
   for (const glm::vec3& eye : seen.eyes) {
     look_around(rays_around, random, tracer.directions);
-    tracer.shoot(eye, seen);
+    tracer.shoot(eye, RayOrder::ordered, seen);
   }
 }
 
@@ -190,7 +190,7 @@ void SeenSampler::aim(std::span<const uint32_t> objects, uint32_t rays_each, See
         if (distance_m > 0) tracer.directions.push_back(away / distance_m);
       }
     }
-    tracer.shoot(seen.eyes[eye], seen);
+    tracer.shoot(seen.eyes[eye], RayOrder::scattered, seen);
   }
 }
 

@@ -31,10 +31,13 @@ TEST(RayScene, AgreesWithExactArithmeticOverAllTriangles) {
   const auto directions = sphere_directions(3001, random);
   std::vector<Hit> hits(directions.size());
   rays.first_hits(eye, directions, hits);
+  std::vector<Hit> scattered(directions.size());
+  rays.first_hits(eye, directions, scattered, RayOrder::scattered);
   size_t met = 0;
   for (size_t i = 0; i < directions.size(); ++i) {
     const auto exact = met_by_all(scene, eye, directions[i]);
     ASSERT_EQ(hits[i].triangle, exact.value_or(Hit::none)) << "ray " << i;
+    ASSERT_EQ(scattered[i].triangle, hits[i].triangle) << "ray " << i;
     met += exact.has_value();
   }
   EXPECT_GT(met, 1000u);
