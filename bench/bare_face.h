@@ -60,15 +60,15 @@ class BareFace {
     draw_.use();
   }
 
-  /// side x side quads, a unit away, that fill the face.
-  void set_quads(int side) {
+  /// side x side quads, a unit away, that fill the face, or its middle of so much of the edge.
+  void set_quads(int side, float reach = 1) {
     corners_.clear();
     std::vector<uint32_t> indices;
-    const float edge = 2.0f / static_cast<float>(side);
+    const float edge = 2.0f * reach / static_cast<float>(side);
     for (int j = 0; j < side; ++j) {
       for (int i = 0; i < side; ++i) {
         const auto v = static_cast<uint32_t>(corners_.size());
-        const float x = -1 + edge * static_cast<float>(i), y = -1 + edge * static_cast<float>(j);
+        const float x = -reach + edge * static_cast<float>(i), y = -reach + edge * static_cast<float>(j);
         for (const auto& [right, up] : {std::pair(0.0f, 0.0f), {edge, 0.0f}, {edge, edge}, {0.0f, edge}})
           corners_.emplace_back(x + right, y + up, 1, 1e9f);
         indices.insert(indices.end(), {v, v + 1, v + 2, v, v + 2, v + 3});

@@ -113,7 +113,7 @@ void test_boxes(int resolution, BareLimits& limits) {
 }
 
 double queries_per_s(BareFace& face) {
-  face.set_quads(2);
+  face.set_quads(2, 1.0f / 16);
   constexpr int count = 256;
   std::vector<GLuint> queries(count);
   glGenQueries(count, queries.data());

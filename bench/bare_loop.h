@@ -15,9 +15,10 @@ struct BareLimits {
   double pixels_per_s = 0;              ///< quads that fill the face, back to front: every pixel is written
   double rejected_pixels_per_s = 0;     ///< front to back: every pixel but the first is refused
   double box_tests_per_s = 0;           ///< compute: box to rectangle, four texels of a pyramid
-  double queries_per_s = 0;             ///< hardware occlusion queries of a box, answers fetched at the end
-  double read_back_ms = 0;              ///< fetching a word that a shader has just written (median)
-  double rays_per_s = 0;                ///< first hits in the city, all round, one thread
+  /// Hardware occlusion queries, each of eight triangles over 1/16 of the edge; answers fetched at the end.
+  double queries_per_s = 0;
+  double read_back_ms = 0;  ///< fetching a word that a shader has just written (median)
+  double rays_per_s = 0;    ///< first hits in the city, all round, one thread
 };
 
 /// Needs a current GL 4.3 context. `resolution`: pixels along the edge of a face. Takes some seconds.
