@@ -26,8 +26,6 @@ std::vector<uint8_t> drawn_by(const PvsFile& file, uint32_t cell) {
   return drawn;
 }
 
-constexpr size_t faults_looked_into = 256;
-
 // Shoots rays from one cell and keeps what they meet.
 class Shooter {
  public:
@@ -135,10 +133,7 @@ class Shooter {
     }
     FalseInvisible example{
         cell_, object_of(*triangle), *triangle, eye, direction, eye + direction * hit.distance_m, {}};
-    // A row with so many faults has failed; excuses would take long and change nothing.
-    const auto gap = wrong_.triangles.size() < faults_looked_into
-                         ? narrow_gap(scene, rays_, eye, direction, hit.distance_m, narrow_gap_limit_m_)
-                         : std::nullopt;
+    const auto gap = narrow_gap(scene, rays_, eye, direction, hit.distance_m, narrow_gap_limit_m_);
     if (gap && !wrong_.triangles.contains(*triangle)) {
       example.gap = *gap;
       ++missed.narrow;
