@@ -3,8 +3,10 @@
 #include "worker/seen.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 
 #include "scene/random.h"
