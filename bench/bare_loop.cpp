@@ -146,7 +146,7 @@ double rays_per_s(const City& city) {
   std::vector<Hit> hits(directions.size());
   const glm::vec3 eye = city.cells[city.cells.size() / 2].center();
   return rate(static_cast<double>(directions.size()), [&](int times) {
-    for (int n = 0; n < times; ++n) rays.first_hits(eye, directions, hits);
+    for (int n = 0; n < times; ++n) rays.first_hits(eye, directions, hits, RayOrder::scattered);
   });
 }
 
