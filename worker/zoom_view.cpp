@@ -84,8 +84,14 @@ std::optional<ZoomView> zoom_onto(const Box& box, const glm::vec3& eye) {
 }
 
 ZoomView section(int face, const glm::vec3& eye) {
-  return {eye,          face_from_world(face), glm::vec2(-1),
-          glm::vec2(1), ZoomView::most_width,  ZoomView::most_height};
+  // The faces of the cube are seen from outside: mirrored.
+  const glm::mat3 mirror(-1, 0, 0, 0, 1, 0, 0, 0, 1);
+  ZoomView view;
+  view.eye = eye;
+  view.view_from_world = mirror * face_from_world(face);
+  view.lower = glm::vec2(-1), view.upper = glm::vec2(1);
+  view.width = ZoomView::most_width, view.height = ZoomView::most_height;
+  return view;
 }
 
 ZoomFrustum::ZoomFrustum(const ZoomView& view, float depth_limit_m) : eye_(view.eye) {

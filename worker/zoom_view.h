@@ -16,9 +16,10 @@ struct ZoomView {
   static constexpr float near_m = 0.05f;
 
   glm::vec3 eye{0};
-  glm::mat3 view_from_world{1.0f};  ///< rows: right, up, forward
-  glm::vec2 lower{0}, upper{0};     ///< the picture: right / forward and up / forward
-  int width = 0, height = 0;        ///< pixels
+  /// Rows: right, up, forward, as the eye has them: what goes round counter-clockwise does so in the picture.
+  glm::mat3 view_from_world{1.0f};
+  glm::vec2 lower{0}, upper{0};  ///< the picture: right / forward and up / forward
+  int width = 0, height = 0;     ///< pixels
 
   /// How wide or high a pixel is at a planar depth, m; the larger of the two.
   float pixel_m(float depth_m) const;

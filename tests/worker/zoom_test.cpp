@@ -75,6 +75,8 @@ TEST_F(ZoomTest, AtTheEyeIsVisible) {
   EXPECT_TRUE(hidden(room, {{-30, -20, 9}, {-20, -10, 25}}));
   EXPECT_FALSE(hidden(room, {{-1, -1, 1}, {1, 1, 2}})) << "around the eye";
   EXPECT_FALSE(hidden(room, {{0.02f, -1, 1}, {30, 1, 2}})) << "from before the near plane on";
+  EXPECT_FALSE(hidden(room, {{0.02f, -0.03f, 1.69f}, {30, 0.03f, 1.72f}})) << "so, and thin";
+  EXPECT_FALSE(hidden(room, {{0.0502f, -0.1f, 1.65f}, {0.5f, 0.1f, 1.75f}})) << "just behind the near plane";
   EXPECT_FALSE(hidden(room, {{-50, -50, -2}, {50, 50, -1}})) << "the ground";
   EXPECT_TRUE(hidden(room, {{10, 10, -7}, {11, 11, 1}}));
 }

@@ -64,6 +64,26 @@ TEST(ZoomView, TheBoxIsAsLargeAsThePictureCanHold) {
   EXPECT_LT(small, zoomed / 4);
 }
 
+TEST(ZoomView, ThePictureIsNotMirrored) {
+  for (const glm::dvec3& forward : {glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0),
+                                    glm::dvec3(0, -1, 0), glm::dvec3(0, 0, 1)}) {
+    const glm::dvec3 up = forward.z == 0 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0),
+                     right = glm::cross(forward, up);
+    const glm::vec3 middle(10.0 * forward);
+    std::vector<ZoomView> views{*zoom_onto({middle - 1.0f, middle + 1.0f}, glm::vec3(0))};
+    for (int face = 0; face < face_count; ++face) {
+      if (section(face, glm::vec3(0)).depths_m({middle, middle}).x > 9)
+        views.push_back(section(face, glm::vec3(0)));
+    }
+    ASSERT_EQ(views.size(), 2u);
+    for (const ZoomView& view : views) {
+      const glm::dvec2 a = place(view, 10.0 * forward), b = place(view, 10.0 * forward + 0.5 * right),
+                       c = place(view, 10.0 * forward + 0.5 * up);
+      EXPECT_GT((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x), 0);
+    }
+  }
+}
+
 TEST(ZoomView, NoneForABoxAroundOrBesideTheEye) {
   EXPECT_FALSE(zoom_onto({{-1, -1, -1}, {1, 1, 1}}, {0, 0, 0}));
   EXPECT_FALSE(zoom_onto({{-1, -1, -1}, {1, 1, 1}}, {0.3f, 0, 0}));
