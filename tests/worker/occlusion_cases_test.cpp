@@ -49,7 +49,7 @@ TEST(OcclusionCase, OccludeeBehindItsOwnWall) {
   city.add_box({22, -10, 0}, {34, 10, 3});  // a low wing behind
   city.begin("outer");
   city.add_box({-30, -10, 0}, {-12, 10, 12});
-  city.add("inner", {-24, -3, 0}, {-18, 3, 4});
+  city.add("inner", {-24, -3, 1}, {-18, 3, 4});
   city.cells_within(0, 0, 4, 4);
   check_methods(city, [&](const auto& answers) {
     const CellOcclusion& answer = city.at(answers, {2, 2, 1.7});
@@ -176,7 +176,7 @@ TEST(OcclusionCase, WallThinnerThanTheCell) {
   city.settings.cells.size_m = 8, city.settings.occlusion.subdivide = 8;
   city.add_ground(60);
   city.add("wall", {16, -40, 0}, {18, 40, 10});
-  city.add("behind_wall", {24, -4, 0}, {28, 4, 3});
+  city.add("behind_wall", {24, -4, 1}, {28, 4, 3});
   city.add("thin", {-16, -40, 0}, {-15.7, 40, 10});  // thinner than the parts: may hide nothing
   city.add("behind_thin", {-28, -4, 0}, {-24, 4, 3});
   city.add("high", {24, 8, 0}, {28, 12, 30});

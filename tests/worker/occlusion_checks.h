@@ -12,7 +12,7 @@
 namespace veduta::test {
 
 /// Every method has to pass every test of occlusion.
-inline const std::vector<std::string> occlusion_methods{"panorama"};
+inline const std::vector<std::string> occlusion_methods{"panorama", "zoom"};
 
 inline bool gl_is_here() {
   try {

