@@ -24,7 +24,7 @@ base=4
   box low 30 -10 40 10 4
   box tower 44 -10 54 10 40
 } >"$work/city.obj"
-printf '[scene]\nmodel = "%s/city.obj"\n[navigation]\nseed_size = 0.25\n[cells]\nsize = 4.0\nregion = [-20, -20, 0, 20]\n[occlusion]\nresolution = 128\n' \
+printf '[scene]\nmodel = "%s/city.obj"\n[navigation]\nseed_size = 0.25\n[cells]\nsize = 4.0\nregion = [-20, -20, 0, 20]\n[occlusion]\nresolution = 128\nsubdivide = 2\n' \
   "$work" >"$work/city.toml"
 job="\"config\": \"$work/city.toml\", \"run\": \"$work/run\", \"cells\": 3, \"repeats\": 1, \"gpu\": \"software\""
 

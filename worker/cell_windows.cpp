@@ -28,6 +28,11 @@ glm::dvec3 part_half_extent(const Settings& settings, int size_class, int parts)
   return {horizontal, horizontal, std::ldexp(settings.cells.height_m, size_class) / 2 + margin};
 }
 
+glm::dvec3 window_around(const Settings& settings, const Box& eyes) {
+  // Half the rounding: bounds of a whole part, rounded themselves, must fit into the window made for it.
+  return glm::dvec3(eyes.half_extent()) + settings.stereo.eye_margin_m + 0.5 * rounding_m;
+}
+
 std::vector<glm::dvec3> window_half_extents(const Settings& settings) {
   std::vector<glm::dvec3> windows;
   for (int size_class = 0; size_class < size_classes(settings); ++size_class) {

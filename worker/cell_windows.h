@@ -21,6 +21,9 @@ int size_class_of(const Settings& settings, const Box& cell);
 /// cell of a size class. Eye margin included, and a millimetre for bounds that are rounded to float.
 glm::dvec3 part_half_extent(const Settings& settings, int size_class, int parts);
 
+/// Half-extents, m, that hold where eyes are: eye margin and rounding included.
+glm::dvec3 window_around(const Settings& settings, const Box& eyes);
+
 /// What occluders are to be shrunk for, the smallest first: from the smallest part of a cell of class 0
 /// (subdivide x subdivide), by doubling, to the whole cell of the largest class.
 std::vector<glm::dvec3> window_half_extents(const Settings& settings);

@@ -21,11 +21,20 @@ class Horizon {
     top_.fill(none), bottom_.fill(-none);
   }
 
-  /// The slope below which all columns of a box (in face coordinates, nearest depth `nearest_m` > 0) are
-  /// hidden already.
-  float hidden_below(const Box& b, float nearest_m) const {
-    const auto [first, last] = columns(b, nearest_m);
-    return *std::min_element(slope_.begin() + first, slope_.begin() + last + 1);
+  /// The slope below which all columns of a box (in face coordinates, nearest depth `nearest_m` > 0) between
+  /// `left` and `right` (right / forward) are hidden already.
+  float hidden_below(const Box& b, float nearest_m, float left = -1, float right = 1) const {
+    const float lower = b.lower.x / (b.lower.x < 0 ? nearest_m : b.upper.z);
+    const float upper = b.upper.x / (b.upper.x > 0 ? nearest_m : b.upper.z);
+    return hidden_between(std::clamp(lower, left, right), std::clamp(upper, left, right));
+  }
+
+  /// The same for the columns between two right / forward, left <= right.
+  float hidden_between(float left, float right) const {
+    const auto column = [&](float ratio) {
+      return static_cast<int>((std::clamp(ratio, -1.0f, 0.99999f) + 1.0f) * (0.5f * count));
+    };
+    return *std::min_element(slope_.begin() + column(left), slope_.begin() + column(right) + 1);
   }
 
   /// The highest slope under which a box is seen.
@@ -70,15 +79,6 @@ class Horizon {
 
   /// Where a point lies among the edges of columns: edge c is at right / forward = c / 256 - 1.
   static float place(const glm::vec3& p) { return (p.x / p.z + 1) * (0.5f * count); }
-
-  static std::pair<int, int> columns(const Box& b, float nearest_m) {
-    const float left = b.lower.x / (b.lower.x < 0 ? nearest_m : b.upper.z);
-    const float right = b.upper.x / (b.upper.x > 0 ? nearest_m : b.upper.z);
-    const auto column = [](float ratio) {
-      return static_cast<int>((std::clamp(ratio, -1.0f, 0.99999f) + 1.0f) * (0.5f * count));
-    };
-    return {column(left), column(right)};
-  }
 
   /// The part of the edge in front of the eye, as far as it is drawn and hardly beside the face. \return
   /// false for none.

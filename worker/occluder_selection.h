@@ -13,6 +13,11 @@ namespace veduta {
 /// A corner of a quad to draw: position relative to the eye, m, and the depth limit of its ring, m.
 using OccluderVertex = glm::vec4;
 
+/// A rectangle of a face, as right / forward and up / forward.
+struct FaceView {
+  float left = -1, right = 1, bottom = -1, top = 1;
+};
+
 /// The occluders of one size of window.
 class OccluderSelection {
  public:
@@ -24,7 +29,8 @@ class OccluderSelection {
   /// do not end before the limit of the ring before (which draws the same occluders with less taken off), and
   /// stand out above the horizon of the nearer ones; of each, the polygons that face the eye. To leave an
   /// occluder out errs towards visible. Valid until the next call, which reuses its memory.
-  const std::vector<OccluderVertex>& select(int face, const glm::vec3& eye);
+  /// \param view what of the face is drawn: bodies beside it are left out.
+  const std::vector<OccluderVertex>& select(int face, const glm::vec3& eye, const FaceView& view = {});
 
  private:
   struct Polygon {
@@ -52,14 +58,17 @@ class OccluderSelection {
   };
 
   void add_body(const OccluderMesh& mesh, size_t body);
-  void select_ring(const RingClusters& ring, int face, const glm::vec3& eye, Horizon& horizon);
-  void draw_body(const Body& body, int face, const glm::vec3& eye, float depth_limit_m, Horizon* horizon);
+  void select_ring(const RingClusters& ring, int face, const glm::vec3& eye, const FaceView& view,
+                   Horizon& horizon);
+  void draw_body(const Body& body, int face, const glm::vec3& eye, float depth_limit_m, const FaceView& view,
+                 Horizon* horizon);
 
   std::vector<RingClusters> rings_;
   std::vector<Body> bodies_;       // and one more, which ends the last
   std::vector<Polygon> polygons_;  // and one more
   std::vector<glm::vec3> corners_;
   std::vector<Near> clusters_by_depth_, bodies_by_depth_;
+  std::vector<glm::vec3> turned_;  // corners of the polygon at hand, in face coordinates
   std::vector<OccluderVertex> vertices_;
 };
 

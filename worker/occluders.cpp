@@ -1,5 +1,7 @@
 #include "worker/occluders.h"
 
+#include <glm/vector_relational.hpp>
+
 namespace veduta {
 
 Box OccluderMesh::bounds(size_t body) const {
@@ -44,6 +46,18 @@ void OccluderMesh::append(const OccluderMesh& other) {
   corners.insert(corners.end(), other.corners.begin(), other.corners.end());
   for (size_t f = 1; f < other.face_begin.size(); ++f) face_begin.push_back(corner + other.face_begin[f]);
   for (size_t b = 1; b < other.body_begin.size(); ++b) body_begin.push_back(face + other.body_begin[b]);
+}
+
+std::optional<uint32_t> smallest_window(const std::vector<WindowOccluders>& windows,
+                                        const glm::dvec3& half_extent_m) {
+  const auto volume = [](const glm::dvec3& e) { return e.x * e.y * e.z; };
+  std::optional<uint32_t> smallest;
+  for (uint32_t w = 0; w < windows.size(); ++w) {
+    const glm::dvec3& e = windows[w].half_extent_m;
+    if (glm::any(glm::lessThan(e, half_extent_m))) continue;
+    if (!smallest || volume(e) < volume(windows[*smallest].half_extent_m)) smallest = w;
+  }
+  return smallest;
 }
 
 }  // namespace veduta

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 #include "scene/box.h"
@@ -43,5 +44,10 @@ struct WindowOccluders {
   glm::dvec3 half_extent_m{0};  ///< e, eye margin included
   std::vector<OccluderRing> rings;
 };
+
+/// The smallest window that holds a part of this half-extent (eye margin included): what its occluders hide
+/// from a centre is hidden from all of the part around it. None where all are too small.
+std::optional<uint32_t> smallest_window(const std::vector<WindowOccluders>& windows,
+                                        const glm::dvec3& half_extent_m);
 
 }  // namespace veduta

@@ -2,14 +2,15 @@
 
 #include <epoxy/gl.h>
 
+#include <chrono>
+#include <cmath>
 #include <glm/gtc/type_ptr.hpp>
-#include <glm/vector_relational.hpp>
 #include <string>
 
 #include "gl/handle.h"
 #include "gl/program.h"
 #include "scene/error.h"
-#include "worker/cube_face.h"
+#include "worker/face_panes.h"
 #include "worker/occluder_selection.h"
 #include "worker/panorama_shaders.h"
 
@@ -20,66 +21,174 @@ namespace {
 enum Binding : GLuint {
   pyramid_binding = 0,
   boxes_binding = 1,
-  answers_binding = 2,
+  objects_binding = 2,
   slices_binding = 3,
-  now_binding = 4
+  answers_binding = 4
 };
 
-/// Vertices of quads that are drawn at a time.
+/// Corners of quads that indices are made for, so that one draw may take as many.
 constexpr size_t batch_vertices = size_t{1} << 16;
 
-void allocate(const GlBuffer& buffer, GLuint binding, size_t bytes, const void* data) {
-  glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffer.id());
-  glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(std::max<size_t>(bytes, 4)), nullptr,
-               GL_DYNAMIC_COPY);
-  if (data != nullptr && bytes > 0)
-    glBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(bytes), data);
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.id());
-}
-
-GLuint groups(size_t items, size_t size) {
+GLuint groups(int items, int size) {
   return static_cast<GLuint>((items + size - 1) / size);
 }
+
+/// Makes the buffer at least as large; what it held is lost when it grows. Twice as much as is asked for, so
+/// that it seldom does.
+void reserve(GLenum target, const GlBuffer& buffer, size_t& capacity, size_t bytes) {
+  glBindBuffer(target, buffer.id());
+  if (bytes <= capacity) return;
+  capacity = 2 * bytes;
+  glBufferData(target, static_cast<GLsizeiptr>(capacity), nullptr, GL_STREAM_DRAW);
+}
+
+void put(GLenum target, size_t bytes, const void* data) {
+  if (bytes > 0) glBufferSubData(target, 0, static_cast<GLsizeiptr>(bytes), data);
+}
+
+/// The fewest pixels along a face for which no pixel of a ring is wider than its h where it is drawn (T3,
+/// sigma = 1/64); a power of two.
+int pixels_for(const WindowOccluders& window) {
+  constexpr double sigma = 1.0 / 64;
+  double needed = FacePanes::alignment;
+  for (const OccluderRing& ring : window.rings)
+    needed = std::max(needed, ring.depth_limit_m * (1 + sigma) / ring.h_m * (1 - 1e-6));
+  int pixels = FacePanes::alignment;
+  while (pixels < needed) pixels *= 2;
+  return pixels;
+}
+
+/// Uniforms of a program, looked up once.
+struct TestUniforms {
+  explicit TestUniforms(const Program& program)
+      : depth(program.uniform("depth")),
+        eye(program.uniform("eye")),
+        half_extent(program.uniform("half_extent")),
+        near(program.uniform("near")),
+        resolution(program.uniform("resolution")),
+        rows(program.uniform("rows")),
+        strip_width(program.uniform("strip_width")),
+        first(program.uniform("first")),
+        count(program.uniform("count")),
+        first_answer(program.uniform("first_answer")),
+        first_slice_box(program.uniform("first_slice_box")) {}
+  GLint depth, eye, half_extent, near, resolution, rows, strip_width, first, count, first_answer,
+      first_slice_box;
+};
+
+struct DrawUniforms {
+  explicit DrawUniforms(const Program& program)
+      : face_from_world(program.uniform("face_from_world")), near(program.uniform("near")) {}
+  GLint face_from_world, near;
+};
+
+struct ReduceUniforms {
+  explicit ReduceUniforms(const Program& program)
+      : depth(program.uniform("depth")),
+        pane(program.uniform("pane")),
+        face(program.uniform("face")),
+        resolution(program.uniform("resolution")) {}
+  GLint depth, pane, face, resolution;
+};
 
 }  // namespace
 
 struct Panorama::State {
-  State(const std::vector<WindowOccluders>& windows, int pixels)
-      : resolution(pixels),
-        draw(Program::render(shader::occluder_vertex, shader::occluder_fragment)),
+  explicit State(const std::vector<WindowOccluders>& occluders)
+      : draw(Program::render(shader::occluder_vertex, shader::occluder_fragment)),
         reduce(Program::compute(shader::pyramid)),
         test_objects(Program::compute(std::string(shader::box_test) + shader::object_test)),
-        test_slices(Program::compute(std::string(shader::box_test) + shader::slice_test)) {
-    for (const WindowOccluders& window : windows)
-      occluders.push_back({window.half_extent_m, OccluderSelection(window.rings)});
+        test_slices(Program::compute(std::string(shader::box_test) + shader::slice_test)),
+        in_draw(draw),
+        in_reduce(reduce),
+        in_objects(test_objects),
+        in_slices(test_slices) {
+    for (const WindowOccluders& window : occluders) {
+      const int pixels = pixels_for(window);
+      windows.push_back({window.half_extent_m, pixels, OccluderSelection(window.rings), FacePanes(pixels)});
+      resolution = std::max(resolution, pixels);
+    }
+  }
+  ~State() {
+    for (const Slot& slot : in_flight) glDeleteSync(slot.fence);
   }
 
   struct Window {
     glm::dvec3 half_extent_m;
+    int resolution;
     OccluderSelection occluders;
+    FacePanes panes;
+  };
+  /// A batch under way.
+  struct Slot {
+    GlBuffer objects, slices, answers;
+    size_t objects_capacity = 0, slices_capacity = 0, answers_capacity = 0;
+    GLsync fence = nullptr;
+    std::vector<uint32_t> read_back;
+  };
+  /// What to draw of a part: a pane and its vertices.
+  struct Draw {
+    Pane pane;
+    size_t first, count;
   };
 
-  int resolution;
-  std::vector<Window> occluders;
+  std::vector<Window> windows;
+  int resolution = FacePanes::alignment;  // of the texture: the largest of the windows'
+  int drawn_resolution = FacePanes::alignment;
   Program draw, reduce, test_objects, test_slices;
+  DrawUniforms in_draw;
+  ReduceUniforms in_reduce;
+  TestUniforms in_objects, in_slices;
   GlTexture depth;
   std::array<GlFramebuffer, face_count> framebuffers;
   GlVertexArray quads;
   GlBuffer quad_vertices, quad_indices;
-  GlBuffer pyramid, boxes, answers, slices, seen_now;
-  int levels = 0;
-  size_t objects = 0, vertical_slices = 0;
-  std::vector<uint32_t> unseen;  // the answers before any part
-  std::vector<uint32_t> read_back;
-  Occlusion occlusion;
+  size_t quad_capacity = 0;
+  GlBuffer pyramid, boxes;
+  std::array<Slot, slots> in_flight;
+  std::vector<Box> object_boxes, slice_boxes;
+  std::vector<OccluderVertex> vertices;
+  std::vector<Draw> draws;
+  OcclusionCounters counters;
+  bool measuring = false;
+  std::chrono::steady_clock::time_point stage_began;
 
   void make_targets();
   void make_quads();
-  Window* smallest_around(const glm::dvec3& half_extent_m);
-  void draw_face(int face, const glm::vec3& eye, Window* window);
-  void build_pyramid();
-  void test(const Program& program, size_t items, const glm::vec3& eye, const glm::vec3& half_extent_m);
+  void load_boxes();
+  void choose_panes(const QuestionBatch& batch, const QuestionBatch::Part& part, Window& window);
+  void select(const QuestionBatch::Part& part, Window& window);
+  void draw_panes();
+  void reduce_panes(const Window& window);
+  void test(const Program& program, const TestUniforms& in, const QuestionBatch::Part& part,
+            const Window& window, uint32_t first, uint32_t count);
+  void ask_part(const QuestionBatch& batch, const QuestionBatch::Part& part);
+  /// Counts fragments of occluders that are nearer than those before; waits for them.
+  template <typename DrawAll>
+  void count_pixels(const DrawAll& draw_all);
+  /// Adds the time since the last call to a stage, of what the renderer has finished.
+  void stage(double OcclusionCounters::*ms);
 };
+
+void Panorama::State::stage(double OcclusionCounters::*ms) {
+  if (!measuring) return;
+  glFinish();
+  const auto now = std::chrono::steady_clock::now();
+  counters.*ms += std::chrono::duration<double, std::milli>(now - stage_began).count();
+  stage_began = now;
+}
+
+template <typename DrawAll>
+void Panorama::State::count_pixels(const DrawAll& draw_all) {
+  if (!measuring) return draw_all();
+  const GlQuery query;
+  glBeginQuery(GL_SAMPLES_PASSED, query.id());
+  draw_all();
+  glEndQuery(GL_SAMPLES_PASSED);
+  GLuint passed = 0;
+  glGetQueryObjectuiv(query.id(), GL_QUERY_RESULT, &passed);
+  counters.pixels += passed;
+}
 
 void Panorama::State::make_targets() {
   const GLsizei r = resolution;
@@ -97,20 +206,17 @@ void Panorama::State::make_targets() {
                                           std::to_string(r) + " pixels");
     }
   }
-  size_t texels = 0;
-  for (int size = r; size > 2; size = std::max(size / 4, 1)) {
-    const int next = std::max(size / 4, 1);
-    texels += static_cast<size_t>(face_count) * next * next;
-    ++levels;
-  }
-  allocate(pyramid, pyramid_binding, texels * sizeof(float), nullptr);
+  const size_t fine = static_cast<size_t>(r) / 4, coarse = static_cast<size_t>(r) / 16;
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, pyramid.id());
+  glBufferData(GL_SHADER_STORAGE_BUFFER,
+               static_cast<GLsizeiptr>(face_count * (fine * fine + coarse * coarse) * sizeof(float)), nullptr,
+               GL_DYNAMIC_COPY);
 }
 
-/// Room for as many quads as are drawn at a time, and the indices of the two triangles of each, once.
+/// The indices of the two triangles of each quad, once.
 void Panorama::State::make_quads() {
   glBindVertexArray(quads.id());
   glBindBuffer(GL_ARRAY_BUFFER, quad_vertices.id());
-  glBufferData(GL_ARRAY_BUFFER, batch_vertices * sizeof(OccluderVertex), nullptr, GL_STREAM_DRAW);
   glEnableVertexAttribArray(0);
   glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(OccluderVertex), nullptr);
   std::vector<uint32_t> indices;
@@ -121,144 +227,217 @@ void Panorama::State::make_quads() {
                indices.data(), GL_STATIC_DRAW);
 }
 
-Panorama::State::Window* Panorama::State::smallest_around(const glm::dvec3& half_extent_m) {
-  const auto volume = [](const glm::dvec3& e) { return e.x * e.y * e.z; };
-  Window* smallest = nullptr;
-  for (Window& window : occluders) {
-    if (glm::any(glm::lessThan(window.half_extent_m, half_extent_m))) continue;
-    if (smallest == nullptr || volume(window.half_extent_m) < volume(smallest->half_extent_m))
-      smallest = &window;
-  }
-  return smallest;
+void Panorama::State::load_boxes() {
+  std::vector<Box> all = object_boxes;
+  all.insert(all.end(), slice_boxes.begin(), slice_boxes.end());
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, boxes.id());
+  glBufferData(GL_SHADER_STORAGE_BUFFER,
+               static_cast<GLsizeiptr>(std::max<size_t>(all.size(), 1) * sizeof(Box)), all.data(),
+               GL_STATIC_DRAW);
 }
 
-void Panorama::State::draw_face(int face, const glm::vec3& eye, Window* window) {
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffers[face].id());
-  glClear(GL_DEPTH_BUFFER_BIT);
-  if (window == nullptr) return;
-  const glm::mat3 rotation = face_from_world(face);
-  glUniformMatrix3fv(draw.uniform("face_from_world"), 1, GL_FALSE, glm::value_ptr(rotation));
-  const std::vector<OccluderVertex>& vertices = window->occluders.select(face, eye);
-  for (size_t first = 0; first < vertices.size(); first += batch_vertices) {
-    const size_t count = std::min(batch_vertices, vertices.size() - first);
-    glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(count * sizeof(OccluderVertex)),
-                    &vertices[first]);
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count / 4 * 6), GL_UNSIGNED_INT, nullptr);
+void Panorama::State::choose_panes(const QuestionBatch& batch, const QuestionBatch::Part& part,
+                                   Window& window) {
+  window.panes.clear();
+  if (part.everywhere) {
+    window.panes.add_all();
+    return;
+  }
+  const glm::vec3 half_extent(window.half_extent_m);  // T2, as in the shader
+  const auto add = [&](const Box& box) {
+    if (box.empty()) return;
+    const glm::vec3 middle = box.center() - part.center;
+    const glm::vec3 half = glm::max(box.half_extent() - half_extent, glm::vec3(0));
+    window.panes.add({middle - half, middle + half}, near_m);
+  };
+  for (uint32_t q = part.first_object; q < part.first_object + part.objects; ++q)
+    add(object_boxes[batch.objects[q]]);
+  for (uint32_t q = part.first_slice; q < part.first_slice + part.slices; ++q) {
+    const SliceQuestion& slice = batch.slices[q];
+    // Boxes of a slice grow with the height: the highest that is asked for holds the others.
+    if (slice.low < slice.high) add(slice_boxes[slice.first_box + slice.high - 1]);
   }
 }
 
-void Panorama::State::build_pyramid() {
+void Panorama::State::select(const QuestionBatch::Part& part, Window& window) {
+  vertices.clear(), draws.clear();
+  const float pixel = 2.0f / static_cast<float>(window.resolution);
+  for (const Pane& pane : window.panes.make()) {
+    const auto ratio = [&](int border) { return static_cast<float>(border) * pixel - 1; };
+    const FaceView view{ratio(pane.x0), ratio(pane.x1), ratio(pane.y0), ratio(pane.y1)};
+    const std::vector<OccluderVertex>& chosen = window.occluders.select(pane.face, part.center, view);
+    draws.push_back({pane, vertices.size(), chosen.size()});
+    vertices.insert(vertices.end(), chosen.begin(), chosen.end());
+  }
+}
+
+void Panorama::State::draw_panes() {
+  draw.use();
+  glUniform1f(in_draw.near, near_m);
+  glBindVertexArray(quads.id());
+  reserve(GL_ARRAY_BUFFER, quad_vertices, quad_capacity, vertices.size() * sizeof(OccluderVertex));
+  // A new store in place of one that the renderer may still read.
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(quad_capacity), nullptr, GL_STREAM_DRAW);
+  put(GL_ARRAY_BUFFER, vertices.size() * sizeof(OccluderVertex), vertices.data());
+  glEnable(GL_SCISSOR_TEST);
+  for (const Draw& d : draws) {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffers[d.pane.face].id());
+    glScissor(d.pane.x0, d.pane.y0, d.pane.x1 - d.pane.x0, d.pane.y1 - d.pane.y0);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    const glm::mat3 rotation = face_from_world(d.pane.face);
+    glUniformMatrix3fv(in_draw.face_from_world, 1, GL_FALSE, glm::value_ptr(rotation));
+    for (size_t n = 0; n < d.count; n += batch_vertices) {
+      const size_t count = std::min(batch_vertices, d.count - n);
+      glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(count / 4 * 6), GL_UNSIGNED_INT, nullptr,
+                               static_cast<GLint>(d.first + n));
+    }
+  }
+  glDisable(GL_SCISSOR_TEST);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);  // the faces are read now
+}
+
+void Panorama::State::reduce_panes(const Window& window) {
   reduce.use();
-  glUniform1i(reduce.uniform("depth"), 0);
-  int offset = 0, size = resolution;
-  int from_offset = 0;
-  for (int level = 1; level <= levels; ++level) {
-    const int next = std::max(size / 4, 1);
-    glUniform1i(reduce.uniform("from_depth"), level == 1 ? 1 : 0);
-    glUniform1i(reduce.uniform("from_offset"), from_offset);
-    glUniform1i(reduce.uniform("from_size"), size);
-    glUniform1i(reduce.uniform("to_offset"), offset);
-    glUniform1i(reduce.uniform("to_size"), next);
-    glDispatchCompute(groups(next, 8), groups(next, 8), face_count);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    from_offset = offset;
-    offset += face_count * next * next;
-    size = next;
+  glUniform1i(in_reduce.depth, 0);
+  glUniform1i(in_reduce.resolution, window.resolution);
+  for (const Draw& d : draws) {
+    const int x0 = d.pane.x0 / 16, y0 = d.pane.y0 / 16, nx = d.pane.x1 / 16 - x0, ny = d.pane.y1 / 16 - y0;
+    glUniform4i(in_reduce.pane, x0, y0, nx, ny);
+    glUniform1i(in_reduce.face, d.pane.face);
+    glDispatchCompute(groups(nx, 8), groups(ny, 2), 1);
   }
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void Panorama::State::test(const Program& program, size_t items, const glm::vec3& eye,
-                           const glm::vec3& half_extent_m) {
-  if (items == 0) return;
+void Panorama::State::test(const Program& program, const TestUniforms& in, const QuestionBatch::Part& part,
+                           const Window& window, uint32_t first, uint32_t count) {
+  if (count == 0) return;
   program.use();
-  glUniform1i(program.uniform("depth"), 0);
-  glUniform3fv(program.uniform("eye"), 1, glm::value_ptr(eye));
-  glUniform3fv(program.uniform("half_extent"), 1, glm::value_ptr(half_extent_m));
-  glUniform1f(program.uniform("near"), near_m);
-  glUniform1i(program.uniform("resolution"), resolution);
-  glUniform1i(program.uniform("levels"), levels);
-  glUniform1i(program.uniform("objects"), static_cast<GLint>(objects));
-  glUniform1i(program.uniform("slices"), static_cast<GLint>(vertical_slices));
-  glUniform1i(program.uniform("first_slice_box"), static_cast<GLint>(objects));
-  glDispatchCompute(groups(items, 64), 1, 1);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+  const glm::vec3 half_extent(window.half_extent_m);
+  glUniform1i(in.depth, 0);
+  glUniform3fv(in.eye, 1, glm::value_ptr(part.center));
+  glUniform3fv(in.half_extent, 1, glm::value_ptr(half_extent));
+  glUniform1f(in.near, near_m);
+  glUniform1i(in.resolution, window.resolution);
+  glUniform2iv(in.rows, face_count * FacePanes::strips, window.panes.rows()[0][0].data());
+  glUniform1i(in.strip_width, FacePanes::strip_width(window.resolution));
+  glUniform1i(in.first, static_cast<GLint>(first));
+  glUniform1i(in.count, static_cast<GLint>(count));
+  glDispatchCompute(groups(static_cast<int>(count), 64), 1, 1);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void Panorama::State::ask_part(const QuestionBatch& batch, const QuestionBatch::Part& part) {
+  Window& window = windows[part.window];
+  drawn_resolution = window.resolution;
+  choose_panes(batch, part, window);
+  select(part, window);
+  stage(&OcclusionCounters::host_ms);
+  glViewport(0, 0, window.resolution, window.resolution);
+  count_pixels([&] { draw_panes(); });
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, depth.id());
+  reduce_panes(window);
+  stage(&OcclusionCounters::occluders_ms);
+  test(test_objects, in_objects, part, window, part.first_object, part.objects);
+  stage(&OcclusionCounters::boxes_ms);
+  test_slices.use();
+  glUniform1i(in_slices.first_answer, static_cast<GLint>(batch.objects.size() + part.first_slice));
+  glUniform1i(in_slices.first_slice_box, static_cast<GLint>(object_boxes.size()));
+  test(test_slices, in_slices, part, window, part.first_slice, part.slices);
+  stage(&OcclusionCounters::slices_ms);
+  ++counters.parts;
+  counters.occluder_triangles += vertices.size() / 2;
+  counters.boxes += part.objects + part.slices;
 }
 
 Panorama::Panorama(const std::vector<Box>& object_boxes, const SliceBoxes& slices,
-                   const std::vector<WindowOccluders>& windows, int resolution)
-    : state_(std::make_unique<State>(windows, resolution)) {
+                   const std::vector<WindowOccluders>& windows)
+    : state_(std::make_unique<State>(windows)) {
   State& s = *state_;
+  s.object_boxes = object_boxes, s.slice_boxes = slices.boxes;
   s.make_targets();
   s.make_quads();
-  s.objects = object_boxes.size();
-  s.vertical_slices = slices.slices.size();
-  std::vector<Box> boxes = object_boxes;
-  boxes.insert(boxes.end(), slices.boxes.begin(), slices.boxes.end());
-  allocate(s.boxes, boxes_binding, boxes.size() * sizeof(Box), boxes.data());
-  static_assert(sizeof(VerticalSlice) == 3 * sizeof(uint32_t));
-  allocate(s.slices, slices_binding, slices.slices.size() * sizeof(VerticalSlice), slices.slices.data());
-  s.unseen.assign(s.objects, 0);
-  for (const VerticalSlice& slice : slices.slices) s.unseen.push_back(slice.heights);
-  s.read_back.resize(s.unseen.size());
-  allocate(s.answers, answers_binding, s.unseen.size() * sizeof(uint32_t), s.unseen.data());
-  allocate(s.seen_now, now_binding, s.objects * sizeof(uint32_t), nullptr);
-  s.occlusion.visible.resize(s.objects);
-  s.occlusion.occluded.resize(s.vertical_slices);
-
+  s.load_boxes();
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GREATER);
   glClearDepth(0.0);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_CLIP_DISTANCE0);
-  glViewport(0, 0, resolution, resolution);
 }
 
 Panorama::~Panorama() = default;
 
-void Panorama::begin_cell() {
-  const State& s = *state_;
-  glBindBuffer(GL_SHADER_STORAGE_BUFFER, s.answers.id());
-  glBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(s.unseen.size() * sizeof(uint32_t)),
-                  s.unseen.data());
+void Panorama::ask(const QuestionBatch& batch, int slot) {
+  State& s = *state_;
+  State::Slot& flight = s.in_flight[slot];
+  s.stage_began = std::chrono::steady_clock::now();
+  constexpr GLenum storage = GL_SHADER_STORAGE_BUFFER;
+  const size_t answers = std::max<size_t>(batch.objects.size() + batch.slices.size(), 1);
+  flight.read_back.resize(batch.objects.size() + batch.slices.size());
+  reserve(storage, flight.objects, flight.objects_capacity,
+          std::max<size_t>(batch.objects.size(), 1) * sizeof(uint32_t));
+  put(storage, batch.objects.size() * sizeof(uint32_t), batch.objects.data());
+  static_assert(sizeof(SliceQuestion) == 4 * sizeof(uint32_t));
+  reserve(storage, flight.slices, flight.slices_capacity,
+          std::max<size_t>(batch.slices.size(), 1) * sizeof(SliceQuestion));
+  put(storage, batch.slices.size() * sizeof(SliceQuestion), batch.slices.data());
+  reserve(storage, flight.answers, flight.answers_capacity, answers * sizeof(uint32_t));
+  glBindBufferBase(storage, pyramid_binding, s.pyramid.id());
+  glBindBufferBase(storage, boxes_binding, s.boxes.id());
+  glBindBufferBase(storage, objects_binding, flight.objects.id());
+  glBindBufferBase(storage, slices_binding, flight.slices.id());
+  glBindBufferBase(storage, answers_binding, flight.answers.id());
+  for (const QuestionBatch::Part& part : batch.parts) s.ask_part(batch, part);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glDeleteSync(flight.fence);
+  flight.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  glFlush();
 }
 
-void Panorama::add_part(const glm::vec3& center, const glm::dvec3& half_extent_m) {
+const std::vector<uint32_t>& Panorama::answers(int slot) {
   State& s = *state_;
-  State::Window* window = s.smallest_around(half_extent_m);
-  s.draw.use();
-  glUniform1f(s.draw.uniform("near"), near_m);
-  glBindVertexArray(s.quads.id());
-  glBindBuffer(GL_ARRAY_BUFFER, s.quad_vertices.id());
-  for (int face = 0; face < face_count; ++face) s.draw_face(face, center, window);
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);  // the faces are read now
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D_ARRAY, s.depth.id());
-  s.build_pyramid();
-  // T2 with the window that the occluders hide for: what they hide from all of it, they hide from the part.
-  const glm::vec3 hidden_for(window == nullptr ? glm::dvec3(0) : window->half_extent_m);
-  s.test(s.test_objects, s.objects, center, hidden_for);
-  s.test(s.test_slices, s.vertical_slices, center, hidden_for);
-}
-
-const Occlusion& Panorama::finish_cell() {
-  State& s = *state_;
-  glBindBuffer(GL_SHADER_STORAGE_BUFFER, s.answers.id());
-  glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0,
-                     static_cast<GLsizeiptr>(s.read_back.size() * sizeof(uint32_t)), s.read_back.data());
-  std::copy_n(s.read_back.begin(), s.objects, s.occlusion.visible.begin());
-  std::copy(s.read_back.begin() + static_cast<std::ptrdiff_t>(s.objects), s.read_back.end(),
-            s.occlusion.occluded.begin());
-  return s.occlusion;
+  State::Slot& flight = s.in_flight[slot];
+  s.stage_began = std::chrono::steady_clock::now();
+  if (flight.fence != nullptr) {
+    glClientWaitSync(flight.fence, GL_SYNC_FLUSH_COMMANDS_BIT, GL_TIMEOUT_IGNORED);
+    glDeleteSync(std::exchange(flight.fence, nullptr));
+  }
+  if (!flight.read_back.empty()) {
+    glBindBuffer(GL_SHADER_STORAGE_BUFFER, flight.answers.id());
+    glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0,
+                       static_cast<GLsizeiptr>(flight.read_back.size() * sizeof(uint32_t)),
+                       flight.read_back.data());
+  }
+  ++s.counters.read_backs;
+  s.stage(&OcclusionCounters::read_back_ms);
+  return flight.read_back;
 }
 
 std::vector<float> Panorama::read_face(int face) const {
   const State& s = *state_;
-  const auto r = static_cast<size_t>(s.resolution);
-  std::vector<float> all(face_count * r * r);
+  const auto all = static_cast<size_t>(s.resolution), r = static_cast<size_t>(s.drawn_resolution);
+  std::vector<float> texture(face_count * all * all), values;
   glBindTexture(GL_TEXTURE_2D_ARRAY, s.depth.id());
-  glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_DEPTH_COMPONENT, GL_FLOAT, all.data());
-  return {all.begin() + static_cast<std::ptrdiff_t>(face * r * r),
-          all.begin() + static_cast<std::ptrdiff_t>((face + 1) * r * r)};
+  glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_DEPTH_COMPONENT, GL_FLOAT, texture.data());
+  for (size_t y = 0; y < r; ++y) {
+    const float* row = &texture[(static_cast<size_t>(face) * all + y) * all];
+    values.insert(values.end(), row, row + r);
+  }
+  return values;
+}
+
+int Panorama::resolution(uint32_t window) const {
+  return state_->windows[window].resolution;
+}
+const OcclusionCounters& Panorama::counters() const {
+  return state_->counters;
+}
+OcclusionCounters& Panorama::counters() {
+  return state_->counters;
+}
+void Panorama::measure() {
+  state_->measuring = true;
 }
 
 }  // namespace veduta

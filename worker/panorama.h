@@ -1,7 +1,8 @@
-// Occlusion from one part of a view-cell at a time: the shrunk occluders drawn once into the faces of a cube,
-// every occludee tested against them in compute shaders (DESIGN §7, "panorama"; §4, T1-T3).
+// Occlusion from parts of view-cells: the shrunk occluders drawn once into the faces of a cube, occludees
+// tested against them in compute shaders (DESIGN §7, "panorama"; §4, T1-T3).
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -12,31 +13,63 @@
 
 namespace veduta {
 
+/// How high is a vertical slice occluded? Its lowest `low` z-slices are known to be, and whether more than
+/// `high` are makes no difference.
+struct SliceQuestion {
+  static constexpr uint32_t always = ~uint32_t{0};
+  uint32_t first_box = 0;  ///< VerticalSlice::first_box
+  uint32_t low = 0, high = 0;
+  uint32_t object =
+      always;  ///< number in `objects` of the question for its object: if that is hidden, so is this
+};
+
+/// What is asked of some parts, all at once.
+struct QuestionBatch {
+  struct Part {
+    glm::vec3 center{0};
+    uint32_t window = 0;                     ///< what occluders hide for
+    bool everywhere = false;                 ///< draw all of the faces, not only what the questions look at
+    uint32_t first_object = 0, objects = 0;  ///< its questions in `objects`
+    uint32_t first_slice = 0, slices = 0;    ///< and in `slices`
+  };
+  std::vector<Part> parts;
+  std::vector<uint32_t> objects;  ///< is this object hidden?
+  std::vector<SliceQuestion> slices;
+
+  void clear() { parts.clear(), objects.clear(), slices.clear(); }
+};
+
 /// Holds a city's occluders and test boxes in GL buffers. Needs a current GL 4.3 context, the same for its
 /// whole life.
 class Panorama {
  public:
+  /// Batches that may be under way at a time.
+  static constexpr int slots = 4;
+  static constexpr float near_m = 0.05f;
+
   /// `object_boxes` [N] m; `slices` as made by slice_boxes for the same objects; `windows`: occluders for
-  /// every size of parts; `resolution`: R, pixels along the edge of a cube face, a power of two, for which
-  /// the occluders were made.
+  /// every size of parts; the pixels of a face follow from their rings.
   Panorama(const std::vector<Box>& object_boxes, const SliceBoxes& slices,
-           const std::vector<WindowOccluders>& windows, int resolution);
+           const std::vector<WindowOccluders>& windows);
   ~Panorama();
 
-  /// Forgets what was found: everything counts as hidden until a part sees it.
-  void begin_cell();
-  /// Draws the occluders of the smallest window that holds a part of this half-extent (eye margin included)
-  /// around its centre, and unites what the part sees with what the others saw. Where no window holds it,
-  /// nothing is hidden from it. Does not wait.
-  void add_part(const glm::vec3& center, const glm::dvec3& half_extent_m);
-  /// Reads all answers of the cell back, at once.
-  const Occlusion& finish_cell();
+  /// Draws each part and asks its questions. Does not wait; the batch is free again when it returns.
+  /// \pre slot < slots, and its last answers were taken.
+  void ask(const QuestionBatch& batch, int slot);
+  /// For each object of the batch 0 (hidden from all of the part) or 1, then for each slice its occluded
+  /// height. Waits where it must. Valid until the next call for this slot.
+  const std::vector<uint32_t>& answers(int slot);
 
-  /// The depth of a face after add_part, R*R values near/z (0: nothing), row 0 lowest; for tests. Faces: +x
-  /// -x +y -y +z.
+  /// The depth of a face after the last part asked, R*R values near/z (0: nothing), row 0 lowest; for tests.
+  /// Faces: +x -x +y -y +z.
   std::vector<float> read_face(int face) const;
+  /// Pixels along a face of a window: the fewest that its rings allow.
+  int resolution(uint32_t window) const;
 
-  static constexpr float near_m = 0.05f;
+  const OcclusionCounters& counters() const;
+  OcclusionCounters& counters();
+  /// See OcclusionMethod::measure.
+  void measure();
 
  private:
   struct State;

@@ -1,9 +1,5 @@
 #include "worker/panorama_method.h"
 
-#include "worker/cell_parts.h"
-#include "worker/cell_windows.h"
-#include "worker/view_cells.h"
-
 namespace veduta {
 namespace {
 
@@ -16,29 +12,45 @@ std::vector<Box> object_boxes(const Scene& scene) {
 }  // namespace
 
 PanoramaMethod::PanoramaMethod(const OcclusionInput& input)
-    : input_(input),
-      panorama_(object_boxes(input.city.scene), input.slices, input.windows,
-                input.settings.occlusion.resolution) {}
+    : sampler_(input.city, input.slices),
+      panorama_(object_boxes(input.city.scene), input.slices, input.windows) {
+  for (int slot = 0; slot < Panorama::slots; ++slot)
+    flights_.push_back({CellBracket(input, sampler_), false});
+}
+
+void PanoramaMethod::go_on(size_t slot) {
+  Flight& flight = flights_[slot];
+  flight.asked = flight.bracket.next(batch_);
+  if (flight.asked) panorama_.ask(batch_, static_cast<int>(slot));
+}
+
+void PanoramaMethod::take(size_t slot) {
+  const std::vector<uint32_t>& answers = panorama_.answers(static_cast<int>(slot));
+  flights_[slot].bracket.take(answers);
+  go_on(slot);
+}
 
 void PanoramaMethod::bake(std::span<const uint32_t> cells,
                           const std::function<void(const CellOcclusion&)>& done) {
-  for (const uint32_t cell : cells) {
-    panorama_.begin_cell();
-    const Box& box = input_.city.cells[cell];
-    // What is hidden from a centre is hidden from every eye within the half-extents of a part, so the centre
-    // may be moved to the middle of where eyes can be: from inside of a house, through its own near wall,
-    // hardly anything would be hidden. Eyes may stand between free space and a wall, whose voxels are taken:
-    // one voxel off.
-    const int parts = input_.settings.occlusion.subdivide;
-    const glm::dvec3 half_extent_m =
-        part_half_extent(input_.settings, size_class_of(input_.settings, box), parts);
-    const float margin_m = input_.city.navigation.free.leaf_size_m;
-    for (const Box& part : parts_of(box, parts)) {
-      const Box eyes = navigable_part(input_.city.navigation.free, part, margin_m);
-      if (!eyes.empty()) panorama_.add_part(eyes.center(), half_extent_m);
+  // Cells [emitted, begun) are under way, cell n in slot n % slots; answers go out in their order.
+  size_t begun = 0, emitted = 0;
+  const auto begin = [&](size_t slot) {
+    flights_[slot].bracket.begin(cells[begun++]);
+    go_on(slot);
+  };
+  while (emitted < cells.size()) {
+    while (begun < cells.size() && begun - emitted < flights_.size()) begin(begun % flights_.size());
+    for (size_t n = emitted; n < begun; ++n) {
+      if (flights_[n % flights_.size()].asked) take(n % flights_.size());
     }
-    done({cell, panorama_.finish_cell(), 0});
-    ++counters_.cells;
+    while (emitted < begun && !flights_[emitted % flights_.size()].asked) {
+      CellBracket& bracket = flights_[emitted % flights_.size()].bracket;
+      OcclusionCounters& counters = panorama_.counters();
+      counters.cells += 1, counters.rays += bracket.rays();
+      if (measuring_) counters.rays_ms += bracket.rays_ms(), counters.host_ms += bracket.host_ms();
+      done(bracket.result());
+      ++emitted;
+    }
   }
 }
 

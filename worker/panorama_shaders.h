@@ -22,28 +22,30 @@ inline constexpr const char* occluder_fragment = R"(#version 430 core
 void main() {}
 )";
 
-/// One level of the depth pyramid: each texel keeps the farthest (smallest near / z) of 4 x 4 of the level
-/// below.
+/// The depth pyramid of a pane: each texel keeps the farthest (smallest near / z) of 4 x 4 pixels, and of 16
+/// x
+/// 16. An invocation makes one of the coarse ones with all that is in it: no level waits for another.
 inline constexpr const char* pyramid = R"(#version 430 core
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = 8, local_size_y = 2) in;
 uniform sampler2DArray depth;
-uniform int from_depth;      // 1: from the depth texture, 0: from the pyramid
-uniform int from_offset, from_size, to_offset, to_size;
+uniform ivec4 pane;          // first coarse texel, number of coarse texels
+uniform int face, resolution;
 layout(std430, binding = 0) buffer Pyramid { float farthest[]; };
 void main() {
-  ivec3 to = ivec3(gl_GlobalInvocationID);
-  if (to.x >= to_size || to.y >= to_size) return;
-  int edge = min(4, from_size);
+  if (any(greaterThanEqual(ivec2(gl_GlobalInvocationID), pane.zw))) return;
+  ivec2 coarse = pane.xy + ivec2(gl_GlobalInvocationID);
+  int fine_size = resolution / 4, coarse_size = resolution / 16;
   float least = 1e30;
-  for (int y = 0; y < edge; ++y) {
-    for (int x = 0; x < edge; ++x) {
-      ivec2 from = to.xy * 4 + ivec2(x, y);
-      float value = from_depth == 1 ? texelFetch(depth, ivec3(from, to.z), 0).r
-                                    : farthest[from_offset + (to.z * from_size + from.y) * from_size + from.x];
-      least = min(least, value);
-    }
+  for (int k = 0; k < 16; ++k) {
+    ivec2 fine = coarse * 4 + ivec2(k & 3, k >> 2);
+    float value = 1e30;
+    for (int y = 0; y < 4; ++y)
+      for (int x = 0; x < 4; ++x)
+        value = min(value, texelFetch(depth, ivec3(fine * 4 + ivec2(x, y), face), 0).r);
+    farthest[(face * fine_size + fine.y) * fine_size + fine.x] = value;
+    least = min(least, value);
   }
-  farthest[to_offset + (to.z * to_size + to.y) * to_size + to.x] = least;
+  farthest[5 * fine_size * fine_size + (face * coarse_size + coarse.y) * coarse_size + coarse.x] = least;
 }
 )";
 
@@ -54,7 +56,9 @@ uniform sampler2DArray depth;
 uniform vec3 eye, half_extent;
 uniform float near;
 uniform int resolution;
-uniform int levels;
+// Rows [x, y) that were drawn in each strip of columns of each face: elsewhere nothing is known.
+uniform ivec2 rows[80];
+uniform int strip_width;
 layout(std430, binding = 0) readonly buffer Pyramid { float farthest[]; };
 layout(std430, binding = 1) readonly buffer Boxes { float boxes[]; };
 
@@ -66,11 +70,8 @@ bool all_nearer(int level, int face, ivec2 lo, ivec2 hi, float needed) {
         if (texelFetch(depth, ivec3(x, y, face), 0).r <= needed) return false;
     return true;
   }
-  int size = resolution, offset = 0;
-  for (int l = 1; l <= level; ++l) {
-    if (l > 1) offset += 5 * size * size;
-    size = max(size / 4, 1);
-  }
+  int size = resolution >> (2 * level);
+  int offset = level == 2 ? 5 * (resolution / 4) * (resolution / 4) : 0;
   for (int y = lo.y; y <= hi.y; ++y)
     for (int x = lo.x; x <= hi.x; ++x)
       if (farthest[offset + (face * size + y) * size + x] <= needed) return false;
@@ -79,13 +80,16 @@ bool all_nearer(int level, int face, ivec2 lo, ivec2 hi, float needed) {
 
 // Coarse levels first; a finer one is asked while it has few texels. To stop early errs towards visible.
 bool rectangle_hidden(int face, ivec2 lo, ivec2 hi, float needed) {
+  for (int s = lo.x / strip_width; s <= hi.x / strip_width; ++s) {
+    ivec2 known = rows[face * 16 + s];
+    if (lo.y < known.x || hi.y >= known.y) return false;
+  }
   int extent = max(hi.x - lo.x, hi.y - lo.y);
-  int level = 0;
-  while (level < levels && (extent >> (2 * level)) > 3) ++level;
+  int level = extent > 15 ? 2 : extent > 3 ? 1 : 0;
   for (; level >= 0; --level) {
     ivec2 a = lo >> (2 * level), b = hi >> (2 * level);
     ivec2 n = b - a + 1;
-    if (n.x * n.y > 2048) return false;
+    if (n.x * n.y > 4096) return false;
     if (all_nearer(level, face, a, b, needed)) return true;
   }
   return false;
@@ -129,38 +133,37 @@ bool hidden(int box) {
 
 /// Whole objects: which does this part see?
 inline constexpr const char* object_test = R"(
-uniform int objects;
-layout(std430, binding = 2) buffer Answers { uint answers[]; };     // [0, objects): seen from some part
-layout(std430, binding = 4) buffer Now { uint seen_now[]; };        // seen from this part
+uniform int first, count;
+layout(std430, binding = 2) readonly buffer Objects { uint objects[]; };
+layout(std430, binding = 4) buffer Answers { uint answers[]; };
 void main() {
-  int o = int(gl_GlobalInvocationID.x);
-  if (o >= objects) return;
-  bool seen = !hidden(o);
-  seen_now[o] = seen ? 1u : 0u;
-  if (seen) answers[o] = 1u;
+  int q = int(gl_GlobalInvocationID.x);
+  if (q >= count) return;
+  answers[first + q] = hidden(int(objects[first + q])) ? 0u : 1u;
 }
 )";
 
-/// Vertical slices of the objects that this part sees: how high is each occluded? The height is monotone, so
-/// it is bisected (in place of the steps of Algorithm 4.2); what no part hides stays.
+/// Vertical slices: how high is each occluded, between what is known and what is worth to know? The height is
+/// monotone, so it is bisected (in place of the steps of Algorithm 4.2).
 inline constexpr const char* slice_test = R"(
-uniform int objects, slices, first_slice_box;
-layout(std430, binding = 2) buffer Answers { uint answers[]; };     // [objects, objects + slices): occluded height
-layout(std430, binding = 3) readonly buffer Slices { uint slice[]; };  // object, first box, heights
-layout(std430, binding = 4) readonly buffer Now { uint seen_now[]; };
+uniform int first, count, first_answer, first_slice_box;
+layout(std430, binding = 3) readonly buffer Slices { uvec4 slices[]; };  // first box, low, high, object's question
+layout(std430, binding = 4) buffer Answers { uint answers[]; };
 void main() {
-  int s = int(gl_GlobalInvocationID.x);
-  if (s >= slices || seen_now[slice[3 * s]] == 0u) return;
-  uint known = answers[objects + s];  // hidden from the parts before
-  if (known == 0u) return;
-  int box = first_slice_box + int(slice[3 * s + 1]) - 1;  // box + h: the lowest h z-slices
-  uint low = 0u, high = known;
-  if (hidden(box + int(known))) return;
-  while (high - low > 1u) {  // low is hidden, high is not
-    uint middle = (low + high) / 2u;
-    if (hidden(box + int(middle))) low = middle; else high = middle;
+  int q = int(gl_GlobalInvocationID.x);
+  if (q >= count) return;
+  uvec4 slice = slices[first + q];
+  int box = first_slice_box + int(slice.x) - 1;  // box + h: the lowest h z-slices
+  uint low = slice.y, high = slice.z;
+  bool asked = slice.w == 0xffffffffu || answers[slice.w] != 0u;  // of a hidden object, all is hidden
+  if (asked && low < high && !hidden(box + int(high))) {
+    while (high - low > 1u) {  // low is hidden, high is not
+      uint middle = (low + high) / 2u;
+      if (hidden(box + int(middle))) low = middle; else high = middle;
+    }
+    high = low;
   }
-  answers[objects + s] = low;
+  answers[first_answer + q] = max(low, high);
 }
 )";
 

@@ -44,8 +44,8 @@ struct Settings {
   } shrink;
   struct {
     std::string method = "panorama";
-    int resolution = 512;           ///< pixels along the edge of a cube face, for the smallest parts
-    int subdivide = 2;              ///< the smallest parts: subdivide x subdivide of a cell; a power of two
+    int resolution = 1024;          ///< pixels along the edge of a cube face, for the smallest parts
+    int subdivide = 8;              ///< the smallest parts: subdivide x subdivide of a cell; a power of two
     double max_overestimate = 1.5;  ///< parts are divided until a row has no more objects than this many
                                     ///< times those that rays have met for certain
   } occlusion;

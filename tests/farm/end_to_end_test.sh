@@ -23,6 +23,7 @@ size = 10.0
 region = [$region]
 [occlusion]
 resolution = 256
+subdivide = 2
 TOML
 
 digest() { "$bin/veduta" info "$1/city.pvs.h5" --json | sed -n 's/.*"content_digest": *"\([0-9a-f]*\)".*/\1/p'; }

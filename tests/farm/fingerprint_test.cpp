@@ -73,7 +73,7 @@ TEST_F(FingerprintTest, EverySettingCountsAndIsNamed) {
   const std::string base = to_toml(stored);
   for (const auto& [from, to, key] : std::vector<std::array<std::string, 3>>{
            {"size = 10.0", "size = 11.0", "cells.size"},
-           {"resolution = 512", "resolution = 256", "occlusion.resolution"},
+           {"resolution = 1024", "resolution = 256", "occlusion.resolution"},
            {"eye_margin = 0.0325", "eye_margin = 0.03", "stereo.eye_margin"},
            {"up = \"auto\"", "up = \"y\"", "scene.up"},
            {"crs = \"\"", "crs = \"EPSG:28992\"", "scene.crs"},

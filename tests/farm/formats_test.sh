@@ -30,6 +30,7 @@ seed_size = 0.125
 size = 4.0
 [occlusion]
 resolution = 256
+subdivide = 2
 TOML
   if ! "$bin/veduta" bake "$work/city.toml" --out "$run" --workers 2 --gpu software >"$work/log" 2>&1; then
     echo "FAILED: $name: bake"; tail -5 "$work/log"; failed=1; continue

@@ -64,6 +64,7 @@ seed_size = 0.125
 size = 4.0
 [occlusion]
 resolution = 256
+subdivide = 2
 TOML
   status=0
   timeout 300 "$bin/veduta" bake "$work/city.toml" --out "$work/run" --fresh --workers 2 --gpu software >"$work/log" 2>&1 || status=$?

@@ -68,7 +68,7 @@ class PreparationOrders : public testing::Test {
     settings_.scene.model = {directory_.path() / "street.obj"};
     settings_.navigation.seed_size_m = 0.25;
     settings_.cells.size_m = 6;
-    settings_.occlusion.resolution = 128;
+    settings_.occlusion.resolution = 128, settings_.occlusion.subdivide = 2;
   }
 
   /// Prepares with so many workers on threads of their own. Before a part is begun, some are given back,

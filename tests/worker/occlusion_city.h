@@ -24,7 +24,7 @@ class OcclusionCity {
  public:
   OcclusionCity() {
     settings.cells.size_m = 4;
-    settings.occlusion.resolution = 256;
+    settings.occlusion.resolution = 256, settings.occlusion.subdivide = 2;
     settings.occlusion.max_overestimate = 1;  // as tight as the smallest parts allow
   }
 

@@ -182,8 +182,9 @@ TEST_P(OcclusionMethods, HideMostOfWhatTheirOccludersHide) {
   RecordProperty("occluded", std::to_string(occluded) + " of " + std::to_string(most_occluded));
   EXPECT_LE(visible, std::get<1>(GetParam()).most_visible * least_visible);
   EXPECT_LT(least_visible, 0.7 * objects) << "nothing is hidden in this city: it tests nothing";
-  // zoom does not take slices smaller by the part.
-  EXPECT_GE(occluded, (method() == "zoom" ? 0.3 : 0.5) * most_occluded);
+  // zoom does not take slices smaller by the part; panorama asks slices of what looks large of larger parts
+  // than objects.
+  EXPECT_GE(occluded, (method() == "zoom" ? 0.3 : 0.2) * most_occluded);
 }
 
 /// What takes many bakes, and is about the check more than about the method: without zoom, which is slow.

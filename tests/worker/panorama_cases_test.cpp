@@ -100,8 +100,7 @@ TEST_F(PanoramaCase, NothingIsDrawnBeyondARingsLimit) {
       {0.25, limit, test::mesh_of({{{5, 4, -2}, {40, 6, 9}}, {{16, -9, -2}, {18, -2, 9}}})});
   world.objects.push_back(wall);
   Panorama p = world.panorama();
-  p.begin_cell();
-  p.add_part(eye, {});
+  test::ask_everything(p, world.objects.size(), {}, {eye});
   float farthest = 0;
   for (int face = 0; face < face_count; ++face) {
     for (const float value : p.read_face(face)) {
@@ -144,24 +143,22 @@ TEST_F(PanoramaCase, AWallOfManyBodiesHidesAsOne) {
   EXPECT_FALSE(hidden_behind(bricks, {{20, -2, 0}, {22, 2, 4}}, eye));
 }
 
-TEST_F(PanoramaCase, APartTakesTheSmallestWindowThatHoldsIt) {
-  // A tower for small parts, a wall for large ones.
+TEST_F(PanoramaCase, EachPartHasItsWindow) {
+  // A wall in the east for large parts, one in the west for small ones; other pixels for each.
   const std::vector<WindowOccluders> windows{
-      {{3, 3, 1}, {{0.25, 100, test::mesh_of({{{10, -5, -2}, {12, 5, 8}}})}}},
-      {{1, 1, 0.5}, {{0.25, 100, test::mesh_of({{{-12, -5, -2}, {-10, 5, 8}}})}}}};
+      {{1, 1, 0.5}, {{1.6, 100, test::mesh_of({{{-12, -5, -2}, {-10, 5, 8}}})}}},
+      {{3, 3, 1}, {{3.2, 100, test::mesh_of({{{10, -5, -2}, {12, 5, 8}}})}}}};
   const std::vector<Box> objects{{{20, -2, 0}, {22, 2, 4}}, {{-22, -2, 0}, {-20, 2, 4}}};
-  Panorama p(objects, {}, windows, 64);
-  const auto visible = [&](const std::vector<glm::dvec3>& parts) {
-    p.begin_cell();
-    for (const glm::dvec3& half : parts) p.add_part(eye, half);
-    return p.finish_cell().visible;
-  };
-  EXPECT_EQ(visible({{1, 1, 0.5}}), (std::vector<uint32_t>{1, 0}));
-  EXPECT_EQ(visible({{0.2, 0.7, 0}}), (std::vector<uint32_t>{1, 0}));
-  EXPECT_EQ(visible({{1, 1, 0.51}}), (std::vector<uint32_t>{0, 1}));
-  EXPECT_EQ(visible({{3, 1, 1}}), (std::vector<uint32_t>{0, 1}));
-  EXPECT_EQ(visible({{3.01, 1, 1}}), (std::vector<uint32_t>{1, 1})) << "no occluders hide for it";
-  EXPECT_EQ(visible({{1, 1, 0.5}, {3, 3, 1}}), (std::vector<uint32_t>{1, 1}));
+  Panorama p(objects, {}, windows);
+  EXPECT_EQ(p.resolution(0), 64);
+  EXPECT_EQ(p.resolution(1), 32);
+  for (const bool everywhere : {true, false}) {
+    QuestionBatch batch;
+    batch.objects = {0, 1, 1, 0};
+    batch.parts = {{eye, 0, everywhere, 0, 2, 0, 0}, {eye, 1, everywhere, 2, 2, 0, 0}};
+    p.ask(batch, 1);
+    EXPECT_EQ(p.answers(1), (std::vector<uint32_t>{1, 0, 1, 0}));
+  }
 }
 
 TEST_F(PanoramaCase, AnEmptyCityIsAllVisible) {

@@ -27,6 +27,34 @@ class GlTest : public testing::Test {
   std::optional<EglContext> context_;
 };
 
+/// Asks every object and every slice from each part, of the first window, and unites what the parts see.
+/// \param everywhere draws all of the faces
+inline Occlusion ask_everything(Panorama& panorama, size_t objects, const SliceBoxes& slices,
+                                const std::vector<glm::vec3>& centers, bool everywhere = true, int slot = 0) {
+  QuestionBatch batch;
+  for (const glm::vec3& center : centers) {
+    const auto first = static_cast<uint32_t>(batch.objects.size());
+    batch.parts.push_back({center, 0, everywhere, first, static_cast<uint32_t>(objects),
+                           static_cast<uint32_t>(batch.slices.size()),
+                           static_cast<uint32_t>(slices.slices.size())});
+    for (uint32_t o = 0; o < objects; ++o) batch.objects.push_back(o);
+    for (const VerticalSlice& slice : slices.slices)
+      batch.slices.push_back({slice.first_box, 0, slice.heights, first + slice.object});
+  }
+  panorama.ask(batch, slot);
+  const std::vector<uint32_t>& answers = panorama.answers(slot);
+  Occlusion all;
+  all.visible.assign(objects, 0);
+  for (const VerticalSlice& slice : slices.slices) all.occluded.push_back(slice.heights);
+  for (size_t part = 0; part < centers.size(); ++part) {
+    for (size_t o = 0; o < objects; ++o) all.visible[o] |= answers[part * objects + o];
+    for (size_t s = 0; s < all.occluded.size(); ++s)
+      all.occluded[s] =
+          std::min(all.occluded[s], answers[batch.objects.size() + part * all.occluded.size() + s]);
+  }
+  return all;
+}
+
 /// Occluders, objects as boxes and their slices.
 struct World {
   std::vector<OccluderRing> rings;
@@ -46,7 +74,13 @@ struct World {
     const std::vector<SliceCounts> all(objects.size(), counts);
     slices = slice_boxes(mesh.scene, all, slice_triangles(mesh.scene, all));
   }
-  Panorama panorama() const { return {objects, slices, {{half_extent_m, rings}}, resolution}; }
+  /// The occluders as they are drawn with `resolution` pixels along a face, which follow from the first ring.
+  std::vector<WindowOccluders> windows() const {
+    std::vector<WindowOccluders> all{{half_extent_m, rings}};
+    for (OccluderRing& ring : all[0].rings) ring.h_m = ring.depth_limit_m * (1 + 1.0 / 64) / resolution;
+    return all;
+  }
+  Panorama panorama() const { return {objects, slices, windows()}; }
   reference::Panorama reference(const glm::vec3& eye) const {
     return {rings, resolution, glm::dvec3(eye), Panorama::near_m};
   }
@@ -54,9 +88,7 @@ struct World {
   /// What is hidden from all of the parts with these centres.
   Occlusion occlusion(const std::vector<glm::vec3>& centers) const {
     Panorama p = panorama();
-    p.begin_cell();
-    for (const glm::vec3& center : centers) p.add_part(center, half_extent_m);
-    return p.finish_cell();
+    return ask_everything(p, objects.size(), slices, centers);
   }
 };
 

@@ -41,8 +41,7 @@ struct DepthDifferences {
 
 DepthDifferences compare_depths(const World& world, const glm::vec3& eye) {
   Panorama gl = world.panorama();
-  gl.begin_cell();
-  gl.add_part(eye, world.half_extent_m);
+  test::ask_everything(gl, 0, {}, {eye});
   const reference::Panorama reference = world.reference(eye);
   DepthDifferences d;
   for (int face = 0; face < face_count; ++face) {
@@ -214,15 +213,60 @@ TEST_P(PanoramaTest, AnswersDoNotDependOnWhatWasAskedBefore) {
   Panorama again = world.panorama();
   for (const std::vector<glm::vec3>& centers :
        {std::vector{eyes[2]}, {eyes[0], eyes[1]}, {eyes[1], eyes[0]}}) {
-    again.begin_cell();
-    for (const glm::vec3& center : centers) again.add_part(center, world.half_extent_m);
-    const Occlusion& now = again.finish_cell();
+    const Occlusion now = test::ask_everything(again, world.objects.size(), world.slices, centers);
     if (centers.size() == 1) continue;
     EXPECT_EQ(now.visible, first.visible);
     EXPECT_EQ(now.occluded, first.occluded);
   }
-  again.begin_cell();  // no part: nobody sees anything
-  for (const uint32_t visible : again.finish_cell().visible) EXPECT_EQ(visible, 0u);
+}
+
+TEST_P(PanoramaTest, PanesGiveTheAnswersOfWholeFacesForFewQuestions) {
+  World world = test::random_world({.seed = 22, .occluders = 150, .objects = 600, .boxes = GetParam()});
+  world.resolution = 256;
+  const Occlusion whole = world.occlusion({eyes[0]});
+  Panorama panorama = world.panorama();
+  QuestionBatch batch;
+  std::vector<uint32_t> asked;
+  int differ = 0, hidden = 0;
+  for (uint32_t o = 0; o < world.objects.size(); o += 3) {
+    batch.clear();
+    batch.objects = {o};
+    batch.parts.push_back({eyes[0], 0, false, 0, 1, 0, 0});
+    for (uint32_t s = world.slices.object_slice_begin[o]; s < world.slices.object_slice_begin[o + 1]; ++s) {
+      batch.slices.push_back({world.slices.slices[s].first_box, 0, world.slices.slices[s].heights, 0});
+      ++batch.parts[0].slices;
+    }
+    panorama.ask(batch, static_cast<int>(o) % Panorama::slots);
+    const std::vector<uint32_t>& answers = panorama.answers(static_cast<int>(o) % Panorama::slots);
+    // The horizon works on what is drawn, so the two leave out different occluders now and then.
+    differ += answers[0] != whole.visible[o];
+    hidden += answers[0] == 0;
+    for (uint32_t s = 0; s < batch.slices.size(); ++s)
+      differ += answers[1 + s] != whole.occluded[world.slices.object_slice_begin[o] + s];
+  }
+  EXPECT_GT(hidden, 40);
+  EXPECT_LE(differ, 6);
+}
+
+TEST_P(PanoramaTest, SlicesAreAskedBetweenWhatIsKnownAndWhatIsWorthToKnow) {
+  const World world = test::random_world({.seed = 23, .occluders = 150, .objects = 300, .boxes = GetParam()});
+  const Occlusion all = world.occlusion({eyes[1]});
+  Panorama panorama = world.panorama();
+  QuestionBatch batch;
+  batch.parts.push_back({eyes[1], 0, true, 0, 0, 0, 0});
+  std::vector<uint32_t> expected;
+  for (uint32_t s = 0; s < world.slices.slices.size(); ++s) {
+    const VerticalSlice& slice = world.slices.slices[s];
+    if (all.visible[slice.object] == 0) continue;
+    const uint32_t height = all.occluded[s], low = height / 2,
+                   high = std::min(height + 1, slice.heights) - s % 2;
+    batch.slices.push_back({slice.first_box, low, high});
+    expected.push_back(std::max(low, std::min(height, high)));
+  }
+  batch.parts[0].slices = static_cast<uint32_t>(batch.slices.size());
+  panorama.ask(batch, 0);
+  EXPECT_EQ(panorama.answers(0), expected);
+  EXPECT_GT(expected.size(), 50u);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ class ToyCity {
   ToyCity() {
     settings_.scene.model = {(directory_ / "city.obj").string()};
     settings_.cells.size_m = 4;
-    settings_.occlusion.resolution = 256;
+    settings_.occlusion.resolution = 256, settings_.occlusion.subdivide = 2;
   }
   void add(const std::string& name, glm::dvec3 lower, glm::dvec3 upper) {
     text_ += "o " + name + "\n";

@@ -32,7 +32,7 @@ class WorkerLoop : public testing::Test {
            "o wall\nv 10 -20 0\nv 10 20 0\nv 10 20 9\nv 10 -20 9\nf 5 6 7 8\n";
     std::ofstream(directory_ / "run.toml")
         << "[scene]\nmodel = '" << (directory_ / "city.obj").string() << "'\n[cells]\nsize = 6.0\n"
-        << "region = [-9.0, -9.0, 9.0, 9.0]\n[occlusion]\nresolution = 128\n";
+        << "region = [-9.0, -9.0, 9.0, 9.0]\n[occlusion]\nresolution = 128\nsubdivide = 2\n";
     ASSERT_EQ(pipe(to_worker_), 0);
     ASSERT_EQ(pipe(from_worker_), 0);
     worker_ = std::thread([this] {

@@ -43,7 +43,8 @@ class CellReference {
   explicit CellReference(const OcclusionInput& input);
 
   /// (a) Segments from each eye to corners, middles and inner points of each box that the answer hides: of
-  /// objects, and of visible objects' slices up to their occluded height. At most one witness a box.
+  /// objects (where their own box is seen, of their slices along x and along y: all of either hide them too),
+  /// and of visible objects' slices up to their occluded height. At most one witness a box.
   /// \param eyes points of the cell at which a viewer can be, m.
   std::vector<Witness> wrongly_hidden(const CellOcclusion& answer, std::span<const glm::vec3> eyes) const;
 
