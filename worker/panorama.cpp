@@ -9,29 +9,13 @@
 
 #include "gl/handle.h"
 #include "gl/program.h"
-#include "scene/error.h"
+#include "worker/depth_faces.h"
 #include "worker/face_panes.h"
 #include "worker/occluder_selection.h"
 #include "worker/panorama_shaders.h"
 
 namespace veduta {
 namespace {
-
-/// Binding points of the shaders' buffers.
-enum Binding : GLuint {
-  pyramid_binding = 0,
-  boxes_binding = 1,
-  objects_binding = 2,
-  slices_binding = 3,
-  answers_binding = 4
-};
-
-/// Corners of quads that indices are made for, so that one draw may take as many.
-constexpr size_t batch_vertices = size_t{1} << 16;
-
-GLuint groups(int items, int size) {
-  return static_cast<GLuint>((items + size - 1) / size);
-}
 
 /// Makes the buffer at least as large; what it held is lost when it grows. Twice as much as is asked for, so
 /// that it seldom does.
@@ -76,38 +60,21 @@ struct TestUniforms {
       first_slice_box;
 };
 
-struct DrawUniforms {
-  explicit DrawUniforms(const Program& program)
-      : face_from_world(program.uniform("face_from_world")), near(program.uniform("near")) {}
-  GLint face_from_world, near;
-};
-
-struct ReduceUniforms {
-  explicit ReduceUniforms(const Program& program)
-      : depth(program.uniform("depth")),
-        pane(program.uniform("pane")),
-        face(program.uniform("face")),
-        resolution(program.uniform("resolution")) {}
-  GLint depth, pane, face, resolution;
-};
-
 }  // namespace
 
 struct Panorama::State {
   explicit State(const std::vector<WindowOccluders>& occluders)
-      : draw(Program::render(shader::occluder_vertex, shader::occluder_fragment)),
-        reduce(Program::compute(shader::pyramid)),
-        test_objects(Program::compute(std::string(shader::box_test) + shader::object_test)),
+      : test_objects(Program::compute(std::string(shader::box_test) + shader::object_test)),
         test_slices(Program::compute(std::string(shader::box_test) + shader::slice_test)),
-        in_draw(draw),
-        in_reduce(reduce),
         in_objects(test_objects),
         in_slices(test_slices) {
+    int resolution = FacePanes::alignment;  // of the largest
     for (const WindowOccluders& window : occluders) {
       const int pixels = pixels_for(window);
       windows.push_back({window.half_extent_m, pixels, OccluderSelection(window.rings), FacePanes(pixels)});
       resolution = std::max(resolution, pixels);
     }
+    faces.emplace(resolution, near_m);
   }
   ~State() {
     for (const Slot& slot : in_flight) glDeleteSync(slot.fence);
@@ -126,40 +93,22 @@ struct Panorama::State {
     GLsync fence = nullptr;
     std::vector<uint32_t> read_back;
   };
-  /// What to draw of a part: a pane and its vertices.
-  struct Draw {
-    Pane pane;
-    size_t first, count;
-  };
-
   std::vector<Window> windows;
-  int resolution = FacePanes::alignment;  // of the texture: the largest of the windows'
-  int drawn_resolution = FacePanes::alignment;
-  Program draw, reduce, test_objects, test_slices;
-  DrawUniforms in_draw;
-  ReduceUniforms in_reduce;
+  std::optional<DepthFaces> faces;
+  Program test_objects, test_slices;
   TestUniforms in_objects, in_slices;
-  GlTexture depth;
-  std::array<GlFramebuffer, face_count> framebuffers;
-  GlVertexArray quads;
-  GlBuffer quad_vertices, quad_indices;
-  size_t quad_capacity = 0;
-  GlBuffer pyramid, boxes;
+  GlBuffer boxes;
   std::array<Slot, slots> in_flight;
   std::vector<Box> object_boxes, slice_boxes;
   std::vector<OccluderVertex> vertices;
-  std::vector<Draw> draws;
+  std::vector<PaneDraw> draws;
   OcclusionCounters counters;
   bool measuring = false;
   std::chrono::steady_clock::time_point stage_began;
 
-  void make_targets();
-  void make_quads();
   void load_boxes();
   void choose_panes(const QuestionBatch& batch, const QuestionBatch::Part& part, Window& window);
   void select(const QuestionBatch::Part& part, Window& window);
-  void draw_panes();
-  void reduce_panes(const Window& window);
   void test(const Program& program, const TestUniforms& in, const QuestionBatch::Part& part,
             const Window& window, uint32_t first, uint32_t count);
   void ask_part(const QuestionBatch& batch, const QuestionBatch::Part& part);
@@ -188,43 +137,6 @@ void Panorama::State::count_pixels(const DrawAll& draw_all) {
   GLuint passed = 0;
   glGetQueryObjectuiv(query.id(), GL_QUERY_RESULT, &passed);
   counters.pixels += passed;
-}
-
-void Panorama::State::make_targets() {
-  const GLsizei r = resolution;
-  glBindTexture(GL_TEXTURE_2D_ARRAY, depth.id());
-  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_DEPTH_COMPONENT32F, r, r, face_count);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  for (int face = 0; face < face_count; ++face) {
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffers[face].id());
-    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, depth.id(), 0, face);
-    glDrawBuffer(GL_NONE);
-    glReadBuffer(GL_NONE);
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-      throw Error(ExitStatus::defect, "occlusion: the driver takes no 32-bit float depth array of " +
-                                          std::to_string(r) + " pixels");
-    }
-  }
-  const size_t fine = static_cast<size_t>(r) / 4, coarse = static_cast<size_t>(r) / 16;
-  glBindBuffer(GL_SHADER_STORAGE_BUFFER, pyramid.id());
-  glBufferData(GL_SHADER_STORAGE_BUFFER,
-               static_cast<GLsizeiptr>(face_count * (fine * fine + coarse * coarse) * sizeof(float)), nullptr,
-               GL_DYNAMIC_COPY);
-}
-
-/// The indices of the two triangles of each quad, once.
-void Panorama::State::make_quads() {
-  glBindVertexArray(quads.id());
-  glBindBuffer(GL_ARRAY_BUFFER, quad_vertices.id());
-  glEnableVertexAttribArray(0);
-  glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(OccluderVertex), nullptr);
-  std::vector<uint32_t> indices;
-  for (uint32_t v = 0; v < batch_vertices; v += 4)
-    indices.insert(indices.end(), {v, v + 1, v + 2, v, v + 2, v + 3});
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, quad_indices.id());
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(uint32_t)),
-               indices.data(), GL_STATIC_DRAW);
 }
 
 void Panorama::State::load_boxes() {
@@ -271,44 +183,6 @@ void Panorama::State::select(const QuestionBatch::Part& part, Window& window) {
   }
 }
 
-void Panorama::State::draw_panes() {
-  draw.use();
-  glUniform1f(in_draw.near, near_m);
-  glBindVertexArray(quads.id());
-  reserve(GL_ARRAY_BUFFER, quad_vertices, quad_capacity, vertices.size() * sizeof(OccluderVertex));
-  // A new store in place of one that the renderer may still read.
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(quad_capacity), nullptr, GL_STREAM_DRAW);
-  put(GL_ARRAY_BUFFER, vertices.size() * sizeof(OccluderVertex), vertices.data());
-  glEnable(GL_SCISSOR_TEST);
-  for (const Draw& d : draws) {
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffers[d.pane.face].id());
-    glScissor(d.pane.x0, d.pane.y0, d.pane.x1 - d.pane.x0, d.pane.y1 - d.pane.y0);
-    glClear(GL_DEPTH_BUFFER_BIT);
-    const glm::mat3 rotation = face_from_world(d.pane.face);
-    glUniformMatrix3fv(in_draw.face_from_world, 1, GL_FALSE, glm::value_ptr(rotation));
-    for (size_t n = 0; n < d.count; n += batch_vertices) {
-      const size_t count = std::min(batch_vertices, d.count - n);
-      glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(count / 4 * 6), GL_UNSIGNED_INT, nullptr,
-                               static_cast<GLint>(d.first + n));
-    }
-  }
-  glDisable(GL_SCISSOR_TEST);
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);  // the faces are read now
-}
-
-void Panorama::State::reduce_panes(const Window& window) {
-  reduce.use();
-  glUniform1i(in_reduce.depth, 0);
-  glUniform1i(in_reduce.resolution, window.resolution);
-  for (const Draw& d : draws) {
-    const int x0 = d.pane.x0 / 16, y0 = d.pane.y0 / 16, nx = d.pane.x1 / 16 - x0, ny = d.pane.y1 / 16 - y0;
-    glUniform4i(in_reduce.pane, x0, y0, nx, ny);
-    glUniform1i(in_reduce.face, d.pane.face);
-    glDispatchCompute(groups(nx, 8), groups(ny, 2), 1);
-  }
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-}
-
 void Panorama::State::test(const Program& program, const TestUniforms& in, const QuestionBatch::Part& part,
                            const Window& window, uint32_t first, uint32_t count) {
   if (count == 0) return;
@@ -323,21 +197,17 @@ void Panorama::State::test(const Program& program, const TestUniforms& in, const
   glUniform1i(in.strip_width, FacePanes::strip_width(window.resolution));
   glUniform1i(in.first, static_cast<GLint>(first));
   glUniform1i(in.count, static_cast<GLint>(count));
-  glDispatchCompute(groups(static_cast<int>(count), 64), 1, 1);
+  glDispatchCompute((count + 63) / 64, 1, 1);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void Panorama::State::ask_part(const QuestionBatch& batch, const QuestionBatch::Part& part) {
   Window& window = windows[part.window];
-  drawn_resolution = window.resolution;
   choose_panes(batch, part, window);
   select(part, window);
   stage(&OcclusionCounters::host_ms);
-  glViewport(0, 0, window.resolution, window.resolution);
-  count_pixels([&] { draw_panes(); });
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D_ARRAY, depth.id());
-  reduce_panes(window);
+  count_pixels([&] { faces->draw(draws, vertices, window.resolution); });
+  faces->reduce(draws, window.resolution);
   stage(&OcclusionCounters::occluders_ms);
   test(test_objects, in_objects, part, window, part.first_object, part.objects);
   stage(&OcclusionCounters::boxes_ms);
@@ -356,14 +226,7 @@ Panorama::Panorama(const std::vector<Box>& object_boxes, const SliceBoxes& slice
     : state_(std::make_unique<State>(windows)) {
   State& s = *state_;
   s.object_boxes = object_boxes, s.slice_boxes = slices.boxes;
-  s.make_targets();
-  s.make_quads();
   s.load_boxes();
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_GREATER);
-  glClearDepth(0.0);
-  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  glEnable(GL_CLIP_DISTANCE0);
 }
 
 Panorama::~Panorama() = default;
@@ -383,7 +246,6 @@ void Panorama::ask(const QuestionBatch& batch, int slot) {
           std::max<size_t>(batch.slices.size(), 1) * sizeof(SliceQuestion));
   put(storage, batch.slices.size() * sizeof(SliceQuestion), batch.slices.data());
   reserve(storage, flight.answers, flight.answers_capacity, answers * sizeof(uint32_t));
-  glBindBufferBase(storage, pyramid_binding, s.pyramid.id());
   glBindBufferBase(storage, boxes_binding, s.boxes.id());
   glBindBufferBase(storage, objects_binding, flight.objects.id());
   glBindBufferBase(storage, slices_binding, flight.slices.id());
@@ -415,18 +277,8 @@ const std::vector<uint32_t>& Panorama::answers(int slot) {
 }
 
 std::vector<float> Panorama::read_face(int face) const {
-  const State& s = *state_;
-  const auto all = static_cast<size_t>(s.resolution), r = static_cast<size_t>(s.drawn_resolution);
-  std::vector<float> texture(face_count * all * all), values;
-  glBindTexture(GL_TEXTURE_2D_ARRAY, s.depth.id());
-  glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_DEPTH_COMPONENT, GL_FLOAT, texture.data());
-  for (size_t y = 0; y < r; ++y) {
-    const float* row = &texture[(static_cast<size_t>(face) * all + y) * all];
-    values.insert(values.end(), row, row + r);
-  }
-  return values;
+  return state_->faces->read(face);
 }
-
 int Panorama::resolution(uint32_t window) const {
   return state_->windows[window].resolution;
 }
