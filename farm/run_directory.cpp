@@ -132,7 +132,7 @@ void write_file_atomically(const fs::path& file, const std::string& content) {
     unlink(temporary.c_str());
     cannot_write(file, failure);
   }
-  sync_path(file.parent_path());
+  sync_path(file.has_parent_path() ? file.parent_path() : ".");
 }
 
 std::optional<std::string> read_text_file(const fs::path& file) {

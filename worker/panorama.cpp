@@ -4,15 +4,13 @@
 
 #include <chrono>
 #include <cmath>
-#include <glm/gtc/type_ptr.hpp>
-#include <string>
+#include <optional>
 
 #include "gl/handle.h"
-#include "gl/program.h"
+#include "worker/box_tests.h"
 #include "worker/depth_faces.h"
 #include "worker/face_panes.h"
 #include "worker/occluder_selection.h"
-#include "worker/panorama_shaders.h"
 
 namespace veduta {
 namespace {
@@ -42,32 +40,12 @@ int pixels_for(const WindowOccluders& window) {
   return pixels;
 }
 
-/// Uniforms of a program, looked up once.
-struct TestUniforms {
-  explicit TestUniforms(const Program& program)
-      : depth(program.uniform("depth")),
-        eye(program.uniform("eye")),
-        half_extent(program.uniform("half_extent")),
-        near(program.uniform("near")),
-        resolution(program.uniform("resolution")),
-        rows(program.uniform("rows")),
-        strip_width(program.uniform("strip_width")),
-        first(program.uniform("first")),
-        count(program.uniform("count")),
-        first_answer(program.uniform("first_answer")),
-        first_slice_box(program.uniform("first_slice_box")) {}
-  GLint depth, eye, half_extent, near, resolution, rows, strip_width, first, count, first_answer,
-      first_slice_box;
-};
-
 }  // namespace
 
 struct Panorama::State {
-  explicit State(const std::vector<WindowOccluders>& occluders)
-      : test_objects(Program::compute(std::string(shader::box_test) + shader::object_test)),
-        test_slices(Program::compute(std::string(shader::box_test) + shader::slice_test)),
-        in_objects(test_objects),
-        in_slices(test_slices) {
+  State(const std::vector<Box>& objects, const std::vector<Box>& slices,
+        const std::vector<WindowOccluders>& occluders)
+      : object_boxes(objects), slice_boxes(slices), tests(objects, slices) {
     int resolution = FacePanes::alignment;  // of the largest
     for (const WindowOccluders& window : occluders) {
       const int pixels = pixels_for(window);
@@ -93,24 +71,20 @@ struct Panorama::State {
     GLsync fence = nullptr;
     std::vector<uint32_t> read_back;
   };
+
+  std::vector<Box> object_boxes, slice_boxes;
+  BoxTests tests;
   std::vector<Window> windows;
   std::optional<DepthFaces> faces;
-  Program test_objects, test_slices;
-  TestUniforms in_objects, in_slices;
-  GlBuffer boxes;
   std::array<Slot, slots> in_flight;
-  std::vector<Box> object_boxes, slice_boxes;
   std::vector<OccluderVertex> vertices;
   std::vector<PaneDraw> draws;
   OcclusionCounters counters;
   bool measuring = false;
   std::chrono::steady_clock::time_point stage_began;
 
-  void load_boxes();
   void choose_panes(const QuestionBatch& batch, const QuestionBatch::Part& part, Window& window);
   void select(const QuestionBatch::Part& part, Window& window);
-  void test(const Program& program, const TestUniforms& in, const QuestionBatch::Part& part,
-            const Window& window, uint32_t first, uint32_t count);
   void ask_part(const QuestionBatch& batch, const QuestionBatch::Part& part);
   /// Counts fragments of occluders that are nearer than those before; waits for them.
   template <typename DrawAll>
@@ -137,15 +111,6 @@ void Panorama::State::count_pixels(const DrawAll& draw_all) {
   GLuint passed = 0;
   glGetQueryObjectuiv(query.id(), GL_QUERY_RESULT, &passed);
   counters.pixels += passed;
-}
-
-void Panorama::State::load_boxes() {
-  std::vector<Box> all = object_boxes;
-  all.insert(all.end(), slice_boxes.begin(), slice_boxes.end());
-  glBindBuffer(GL_SHADER_STORAGE_BUFFER, boxes.id());
-  glBufferData(GL_SHADER_STORAGE_BUFFER,
-               static_cast<GLsizeiptr>(std::max<size_t>(all.size(), 1) * sizeof(Box)), all.data(),
-               GL_STATIC_DRAW);
 }
 
 void Panorama::State::choose_panes(const QuestionBatch& batch, const QuestionBatch::Part& part,
@@ -183,24 +148,6 @@ void Panorama::State::select(const QuestionBatch::Part& part, Window& window) {
   }
 }
 
-void Panorama::State::test(const Program& program, const TestUniforms& in, const QuestionBatch::Part& part,
-                           const Window& window, uint32_t first, uint32_t count) {
-  if (count == 0) return;
-  program.use();
-  const glm::vec3 half_extent(window.half_extent_m);
-  glUniform1i(in.depth, 0);
-  glUniform3fv(in.eye, 1, glm::value_ptr(part.center));
-  glUniform3fv(in.half_extent, 1, glm::value_ptr(half_extent));
-  glUniform1f(in.near, near_m);
-  glUniform1i(in.resolution, window.resolution);
-  glUniform2iv(in.rows, face_count * FacePanes::strips, window.panes.rows()[0][0].data());
-  glUniform1i(in.strip_width, FacePanes::strip_width(window.resolution));
-  glUniform1i(in.first, static_cast<GLint>(first));
-  glUniform1i(in.count, static_cast<GLint>(count));
-  glDispatchCompute((count + 63) / 64, 1, 1);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-}
-
 void Panorama::State::ask_part(const QuestionBatch& batch, const QuestionBatch::Part& part) {
   Window& window = windows[part.window];
   choose_panes(batch, part, window);
@@ -209,12 +156,11 @@ void Panorama::State::ask_part(const QuestionBatch& batch, const QuestionBatch::
   count_pixels([&] { faces->draw(draws, vertices, window.resolution); });
   faces->reduce(draws, window.resolution);
   stage(&OcclusionCounters::occluders_ms);
-  test(test_objects, in_objects, part, window, part.first_object, part.objects);
+  const TestView view{part.center, glm::vec3(window.half_extent_m), near_m, window.resolution,
+                      window.panes.rows()};
+  tests.objects(view, part.first_object, part.objects);
   stage(&OcclusionCounters::boxes_ms);
-  test_slices.use();
-  glUniform1i(in_slices.first_answer, static_cast<GLint>(batch.objects.size() + part.first_slice));
-  glUniform1i(in_slices.first_slice_box, static_cast<GLint>(object_boxes.size()));
-  test(test_slices, in_slices, part, window, part.first_slice, part.slices);
+  tests.slices(view, part.first_slice, part.slices, batch.objects.size() + part.first_slice);
   stage(&OcclusionCounters::slices_ms);
   ++counters.parts;
   counters.occluder_triangles += vertices.size() / 2;
@@ -223,11 +169,7 @@ void Panorama::State::ask_part(const QuestionBatch& batch, const QuestionBatch::
 
 Panorama::Panorama(const std::vector<Box>& object_boxes, const SliceBoxes& slices,
                    const std::vector<WindowOccluders>& windows)
-    : state_(std::make_unique<State>(windows)) {
-  State& s = *state_;
-  s.object_boxes = object_boxes, s.slice_boxes = slices.boxes;
-  s.load_boxes();
-}
+    : state_(std::make_unique<State>(object_boxes, slices.boxes, windows)) {}
 
 Panorama::~Panorama() = default;
 
@@ -246,7 +188,6 @@ void Panorama::ask(const QuestionBatch& batch, int slot) {
           std::max<size_t>(batch.slices.size(), 1) * sizeof(SliceQuestion));
   put(storage, batch.slices.size() * sizeof(SliceQuestion), batch.slices.data());
   reserve(storage, flight.answers, flight.answers_capacity, answers * sizeof(uint32_t));
-  glBindBufferBase(storage, boxes_binding, s.boxes.id());
   glBindBufferBase(storage, objects_binding, flight.objects.id());
   glBindBufferBase(storage, slices_binding, flight.slices.id());
   glBindBufferBase(storage, answers_binding, flight.answers.id());

@@ -83,7 +83,8 @@ for victim in worker rank mpirun; do
   echo "kill -9 of a $victim (status $status), then again: same digest; $(grep -ho '[0-9]* cells ([0-9]* in this run' "$run.log" | tail -1))"
 done
 
-"$bin/veduta" verify "$work/reference/city.pvs.h5" --cells 16 --rays 100000 2>/dev/null || fail "verification"
+(cd "$work" && "$bin/veduta" verify reference/city.pvs.h5 --cells 16 --rays 100000 --json verify.json 2>/dev/null) || fail "verification"
+[[ -s $work/verify.json ]] || fail "no verify.json beside the run"
 "$bin/veduta-view" "$work/reference/city.pvs.h5" --headless --gpu software --stereo side-by-side --frames 3 --size 640x180 --out "$work/on" >/dev/null
 "$bin/veduta-view" "$work/reference/city.pvs.h5" --headless --gpu software --stereo side-by-side --frames 3 --size 640x180 --out "$work/off" --pvs off >/dev/null
 for frame in "$work"/on/*.png; do cmp "$frame" "$work/off/$(basename "$frame")" || fail "a picture differs without the PVS"; done
