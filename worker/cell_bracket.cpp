@@ -30,9 +30,10 @@ class Stopwatch {
 }  // namespace
 
 CellBracket::CellBracket(const OcclusionInput& input, const SeenSampler& sampler)
-    : input_(input), slice_parts_(std::max(input.settings.occlusion.subdivide / 2, 1)), sampler_(sampler) {
-  for (size_t o = 0; o < input.city.scene.objects.size(); ++o) bounds_.push_back(input.city.scene.bounds(o));
-}
+    : input_(input),
+      slice_parts_(std::max(input.settings.occlusion.subdivide / 2, 1)),
+      sampler_(sampler),
+      bounds_(object_boxes(input)) {}
 
 void CellBracket::begin(uint32_t cell) {
   rays_ms_ = host_ms_ = 0;

@@ -38,6 +38,9 @@ struct OcclusionInput {
   const Settings& settings;
 };
 
+/// Bounds of the objects, [N] m: what an object as a whole is tested by.
+std::vector<Box> object_boxes(const OcclusionInput& input);
+
 /// What the work was, since the method was made. Times, in ms, are of the stages one after the other, and are
 /// only taken where `OcclusionMethod::measure` was called: to tell stages apart the renderer has to finish
 /// each.

@@ -1,19 +1,8 @@
 #include "worker/panorama_method.h"
 
 namespace veduta {
-namespace {
-
-std::vector<Box> object_boxes(const Scene& scene) {
-  std::vector<Box> boxes;
-  for (size_t o = 0; o < scene.objects.size(); ++o) boxes.push_back(scene.bounds(o));
-  return boxes;
-}
-
-}  // namespace
-
 PanoramaMethod::PanoramaMethod(const OcclusionInput& input)
-    : sampler_(input.city, input.slices),
-      panorama_(object_boxes(input.city.scene), input.slices, input.windows) {
+    : sampler_(input.city, input.slices), panorama_(object_boxes(input), input.slices, input.windows) {
   for (int slot = 0; slot < Panorama::slots; ++slot)
     flights_.push_back({CellBracket(input, sampler_), false});
 }

@@ -1,7 +1,6 @@
 #include "worker/zoom.h"
 
 #include <algorithm>
-#include <glm/vector_relational.hpp>
 #include <optional>
 
 #include "worker/zoom_state.h"
@@ -9,15 +8,10 @@
 namespace veduta {
 
 ZoomOccluders* Zoom::State::occluders_for(const glm::dvec3& half_extent_m) {
-  const auto volume = [](const glm::dvec3& e) { return e.x * e.y * e.z; };
-  const WindowOccluders* smallest = nullptr;
-  for (const WindowOccluders& window : windows) {
-    if (window.rings.empty() || glm::any(glm::lessThan(window.half_extent_m, half_extent_m))) continue;
-    if (smallest == nullptr || volume(window.half_extent_m) < volume(smallest->half_extent_m))
-      smallest = &window;
-  }
-  if (smallest == nullptr) return nullptr;
-  return &occluders.try_emplace(smallest, smallest->rings.front().occluders).first->second;
+  const auto smallest = smallest_window(windows, half_extent_m);
+  if (!smallest || windows[*smallest].rings.empty()) return nullptr;
+  const WindowOccluders& window = windows[*smallest];
+  return &occluders.try_emplace(&window, window.rings.front().occluders).first->second;
 }
 
 void Zoom::State::see_all(uint32_t object) {

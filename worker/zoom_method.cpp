@@ -5,18 +5,8 @@
 #include "worker/view_cells.h"
 
 namespace veduta {
-namespace {
-
-std::vector<Box> object_boxes(const Scene& scene) {
-  std::vector<Box> boxes;
-  for (size_t o = 0; o < scene.objects.size(); ++o) boxes.push_back(scene.bounds(o));
-  return boxes;
-}
-
-}  // namespace
-
 ZoomMethod::ZoomMethod(const OcclusionInput& input)
-    : input_(input), zoom_(object_boxes(input.city.scene), input.slices, input.windows) {}
+    : input_(input), zoom_(object_boxes(input), input.slices, input.windows) {}
 
 void ZoomMethod::bake(std::span<const uint32_t> cells,
                       const std::function<void(const CellOcclusion&)>& done) {
