@@ -1,6 +1,7 @@
 #include "worker/panorama_method.h"
 
 namespace veduta {
+
 PanoramaMethod::PanoramaMethod(const OcclusionInput& input)
     : sampler_(input.city, input.slices), panorama_(object_boxes(input), input.slices, input.windows) {
   for (int slot = 0; slot < Panorama::slots; ++slot)

@@ -5,6 +5,7 @@
 #include "worker/view_cells.h"
 
 namespace veduta {
+
 ZoomMethod::ZoomMethod(const OcclusionInput& input)
     : input_(input), zoom_(object_boxes(input), input.slices, input.windows) {}
 
