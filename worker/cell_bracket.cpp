@@ -29,11 +29,12 @@ class Stopwatch {
 
 }  // namespace
 
-CellBracket::CellBracket(const OcclusionInput& input, const SeenSampler& sampler)
+CellBracket::CellBracket(const OcclusionInput& input, const SeenSampler& sampler,
+                         const std::vector<Box>& bounds)
     : input_(input),
       slice_parts_(std::max(input.settings.occlusion.subdivide / 2, 1)),
       sampler_(sampler),
-      bounds_(object_boxes(input)) {}
+      bounds_(bounds) {}
 
 void CellBracket::begin(uint32_t cell) {
   rays_ms_ = host_ms_ = 0;

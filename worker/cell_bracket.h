@@ -18,8 +18,8 @@ namespace veduta {
 /// PVS(whole)), and where a slice was hidden from the whole it is hidden from the part.
 class CellBracket {
  public:
-  /// `sampler` outlives it.
-  CellBracket(const OcclusionInput& input, const SeenSampler& sampler);
+  /// \param bounds of the objects, [N] m (object_boxes). It and `sampler` outlive this.
+  CellBracket(const OcclusionInput& input, const SeenSampler& sampler, const std::vector<Box>& bounds);
 
   /// Begins with another cell; what was found of the last is forgotten.
   void begin(uint32_t cell);
@@ -83,7 +83,7 @@ class CellBracket {
   OcclusionInput input_;
   int slice_parts_;  // slices are asked of parts this small
   const SeenSampler& sampler_;
-  std::vector<Box> bounds_;  // of objects
+  const std::vector<Box>& bounds_;
   Box cell_;
   Seen seen_;
   bool close_enough_ = false;  // the bounds are: nothing is in doubt any more

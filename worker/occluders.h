@@ -31,6 +31,10 @@ struct OccluderMesh {
   void append(const OccluderMesh& other);
 };
 
+/// What a pixel is taken to be wider by, for vertices are snapped to a grid finer than pixels (T3's sigma;
+/// generous).
+inline constexpr double snapping = 1.0 / 64;
+
 /// The occluders of one ring: inside O eroded by the window [-(e + h), e + h], to be drawn up to
 /// depth_limit_m (T3).
 struct OccluderRing {

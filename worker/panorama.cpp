@@ -28,13 +28,12 @@ void put(GLenum target, size_t bytes, const void* data) {
   if (bytes > 0) glBufferSubData(target, 0, static_cast<GLsizeiptr>(bytes), data);
 }
 
-/// The fewest pixels along a face for which no pixel of a ring is wider than its h where it is drawn (T3,
-/// sigma = 1/64); a power of two.
+/// The fewest pixels along a face for which no pixel of a ring is wider than its h where it is drawn (T3);
+/// a power of two.
 int pixels_for(const WindowOccluders& window) {
-  constexpr double sigma = 1.0 / 64;
   double needed = FacePanes::alignment;
   for (const OccluderRing& ring : window.rings)
-    needed = std::max(needed, ring.depth_limit_m * (1 + sigma) / ring.h_m * (1 - 1e-6));
+    needed = std::max(needed, ring.depth_limit_m * (1 + snapping) / ring.h_m * (1 - 1e-6));
   int pixels = FacePanes::alignment;
   while (pixels < needed) pixels *= 2;
   return pixels;

@@ -3,9 +3,11 @@
 namespace veduta {
 
 PanoramaMethod::PanoramaMethod(const OcclusionInput& input)
-    : sampler_(input.city, input.slices), panorama_(object_boxes(input), input.slices, input.windows) {
+    : bounds_(object_boxes(input)),
+      sampler_(input.city, input.slices),
+      panorama_(bounds_, input.slices, input.windows) {
   for (int slot = 0; slot < Panorama::slots; ++slot)
-    flights_.push_back({CellBracket(input, sampler_), false});
+    flights_.push_back({CellBracket(input, sampler_, bounds_), false});
 }
 
 void PanoramaMethod::go_on(size_t slot) {

@@ -26,6 +26,7 @@ class PanoramaMethod final : public OcclusionMethod {
   /// The answers of a slot to its cell, and the next questions.
   void take(size_t slot);
 
+  std::vector<Box> bounds_;  // of the objects
   SeenSampler sampler_;
   Panorama panorama_;
   std::vector<Flight> flights_;

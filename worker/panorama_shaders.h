@@ -22,9 +22,8 @@ inline constexpr const char* occluder_fragment = R"(#version 430 core
 void main() {}
 )";
 
-/// The depth pyramid of a pane: each texel keeps the farthest (smallest near / z) of 4 x 4 pixels, and of 16
-/// x
-/// 16. An invocation makes one of the coarse ones with all that is in it: no level waits for another.
+/// The depth pyramid of a pane: each texel keeps the farthest (smallest near / z) of 4 x 4 pixels, and of
+/// 256. An invocation makes one of the coarse ones with all that is in it: no level waits for another.
 inline constexpr const char* pyramid = R"(#version 430 core
 layout(local_size_x = 8, local_size_y = 2) in;
 uniform sampler2DArray depth;
@@ -49,7 +48,7 @@ void main() {
 }
 )";
 
-/// hidden(lower, upper): is a box hidden from every point of the part? Both methods below share it.
+/// hidden(lower, upper): is a box hidden from every point of the part? Both tests below share it.
 inline constexpr const char* box_test = R"(#version 430 core
 layout(local_size_x = 64) in;
 uniform sampler2DArray depth;

@@ -17,13 +17,12 @@ SealedBlock make_sealed_block(const Scene& scene, double seed_size_m) {
 }
 
 std::vector<RingWindow> ring_windows(const glm::dvec3& half_extent_m, int resolution, double reach_m) {
-  constexpr double sigma = 1.0 / 64;  // sub-pixel snapping of vertices, generous
   std::vector<RingWindow> rings;
   double h_m = std::max(half_extent_m.x, half_extent_m.y) / 32;
   do {
     // The last ring takes no more than it needs.
-    if (!rings.empty()) h_m = std::min(2 * h_m, 1.0001 * reach_m * (1 + sigma) / resolution);
-    rings.push_back({h_m, h_m * resolution / (1 + sigma)});
+    if (!rings.empty()) h_m = std::min(2 * h_m, 1.0001 * reach_m * (1 + snapping) / resolution);
+    rings.push_back({h_m, h_m * resolution / (1 + snapping)});
   } while (rings.back().depth_limit_m < reach_m);
   return rings;
 }

@@ -22,6 +22,7 @@ struct Room {
   SliceBoxes slices;
   Settings settings;
   std::vector<WindowOccluders> windows;
+  std::vector<Box> bounds;
 
   explicit Room(double max_overestimate) {
     Scene scene;
@@ -43,7 +44,9 @@ struct Room {
     settings.cells.size_m = 8, settings.cells.height_m = 1;
     settings.occlusion.subdivide = finest, settings.occlusion.max_overestimate = max_overestimate;
     for (const glm::dvec3& e : window_half_extents(settings)) windows.push_back({e, {}});
+    bounds = object_boxes(input());
   }
+  OcclusionInput input() const { return {city, slices, windows, settings}; }
   size_t objects() const { return city.scene.objects.size(); }
 };
 
@@ -165,7 +168,7 @@ void expect_conservative(const Room& room, const Oracle& oracle, const CellOcclu
 TEST(CellBracket, FindsWhatTheSmallestPartsSeeAndNoMore) {
   const Room room(1);
   const SeenSampler sampler(room.city, room.slices);
-  CellBracket bracket({room.city, room.slices, room.windows, room.settings}, sampler);
+  CellBracket bracket(room.input(), sampler, room.bounds);
   int hidden = 0;
   for (uint32_t seed = 0; seed < 20; ++seed) {
     Oracle oracle(room, seed, 0.3 * (seed % 3));
@@ -185,8 +188,8 @@ TEST(CellBracket, FindsWhatTheSmallestPartsSeeAndNoMore) {
 TEST(CellBracket, StopsWhereTheBoundsAreAsCloseAsAsked) {
   const Room exact(1), loose(100);
   const SeenSampler sampler(exact.city, exact.slices);
-  CellBracket fine({exact.city, exact.slices, exact.windows, exact.settings}, sampler);
-  CellBracket coarse({loose.city, loose.slices, loose.windows, loose.settings}, sampler);
+  CellBracket fine(exact.input(), sampler, exact.bounds);
+  CellBracket coarse(loose.input(), sampler, loose.bounds);
   for (uint32_t seed = 0; seed < 5; ++seed) {
     Oracle one(exact, seed, 0.5), other(loose, seed, 0.5);
     const Outcome all = run(exact, fine, one), some = run(loose, coarse, other);
@@ -201,7 +204,7 @@ TEST(CellBracket, AsksNothingOfACellWithoutAPlaceForAnEye) {
   Room room(1);
   room.city.cells[0] = {{-200, -200, 1}, {-192, -192, 2}};
   const SeenSampler sampler(room.city, room.slices);
-  CellBracket bracket({room.city, room.slices, room.windows, room.settings}, sampler);
+  CellBracket bracket(room.input(), sampler, room.bounds);
   bracket.begin(0);
   QuestionBatch batch;
   EXPECT_FALSE(bracket.next(batch));
@@ -212,7 +215,7 @@ TEST(CellBracket, OccludersForOtherPartsAreADefect) {
   Room room(1);
   for (WindowOccluders& window : room.windows) window.half_extent_m *= 0.1;
   const SeenSampler sampler(room.city, room.slices);
-  CellBracket bracket({room.city, room.slices, room.windows, room.settings}, sampler);
+  CellBracket bracket(room.input(), sampler, room.bounds);
   EXPECT_ANY_THROW(bracket.begin(0));
 }
 

@@ -77,7 +77,7 @@ struct World {
   /// The occluders as they are drawn with `resolution` pixels along a face, which follow from the first ring.
   std::vector<WindowOccluders> windows() const {
     std::vector<WindowOccluders> all{{half_extent_m, rings}};
-    for (OccluderRing& ring : all[0].rings) ring.h_m = ring.depth_limit_m * (1 + 1.0 / 64) / resolution;
+    for (OccluderRing& ring : all[0].rings) ring.h_m = ring.depth_limit_m * (1 + snapping) / resolution;
     return all;
   }
   Panorama panorama() const { return {objects, slices, windows()}; }
