@@ -10,7 +10,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <memory>
+#include <deque>
 
 #include "scene/error.h"
 
@@ -46,33 +46,35 @@ void OrderedOutput::write_parts(size_t count,
                                 const std::function<void(size_t part, TextBuffer& text)>& format) {
   struct Part {
     size_t number = 0;
-    std::unique_ptr<TextBuffer> text;
+    TextBuffer text;
   };
-  tbb::concurrent_queue<std::unique_ptr<TextBuffer>> idle;  // buffers that were written: they are large
+  // The tokens are plain pointers: a pipeline that ends by an exception forgets those that are under way.
+  std::deque<Part> parts;
+  tbb::concurrent_queue<Part*> idle;  // parts that were written: their buffers are large
   size_t next = 0;
-  const auto start = [&](tbb::flow_control& control) {
-    Part part{next++, nullptr};
-    if (part.number >= count) {
+  const auto start = [&](tbb::flow_control& control) -> Part* {
+    if (next == count) {
       control.stop();
-    } else if (!idle.try_pop(part.text)) {
-      part.text = std::make_unique<TextBuffer>();
+      return nullptr;
     }
-    return std::make_shared<Part>(std::move(part));
-  };
-  const auto fill = [&](const std::shared_ptr<Part>& part) {
-    part->text->clear();
-    format(part->number, *part->text);
+    Part* part = nullptr;
+    if (!idle.try_pop(part)) part = &parts.emplace_back();
+    part->number = next++;
     return part;
   };
-  const auto finish = [&](const std::shared_ptr<Part>& part) {
-    write(part->text->view());
-    idle.push(std::move(part->text));
+  const auto fill = [&](Part* part) {
+    part->text.clear();
+    format(part->number, part->text);
+    return part;
   };
-  using Token = std::shared_ptr<Part>;
+  const auto finish = [&](Part* part) {
+    write(part->text.view());
+    idle.push(part);
+  };
   tbb::parallel_pipeline(static_cast<size_t>(3 * tbb::this_task_arena::max_concurrency()),
-                         tbb::make_filter<void, Token>(tbb::filter_mode::serial_in_order, start) &
-                             tbb::make_filter<Token, Token>(tbb::filter_mode::parallel, fill) &
-                             tbb::make_filter<Token, void>(tbb::filter_mode::serial_in_order, finish));
+                         tbb::make_filter<void, Part*>(tbb::filter_mode::serial_in_order, start) &
+                             tbb::make_filter<Part*, Part*>(tbb::filter_mode::parallel, fill) &
+                             tbb::make_filter<Part*, void>(tbb::filter_mode::serial_in_order, finish));
 }
 
 void OrderedOutput::close() {
