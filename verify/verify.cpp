@@ -113,6 +113,23 @@ void add_certified(const PvsFile& file, const std::vector<uint32_t>& cells, Veri
   report.certified_worst = certified.back();
 }
 
+std::vector<CellVerdict> verdicts(const std::vector<uint32_t>& cells, const std::vector<CellCheck>& checks) {
+  std::vector<CellVerdict> result;
+  for (size_t i = 0; i < cells.size(); ++i) {
+    const CellCheck& check = checks[i];
+    CellVerdict verdict;
+    verdict.cell = cells[i], verdict.has_eye = check.has_eye, verdict.rays = check.rays;
+    verdict.pvs_objects = check.pvs_objects, verdict.seen_objects = check.seen_objects;
+    verdict.pvs_triangles = check.pvs_triangles, verdict.seen_triangles = check.seen_triangles;
+    verdict.false_invisible_objects = check.wrong.objects;
+    verdict.false_invisible_triangles = check.wrong.triangles;
+    verdict.narrow_gap_objects = check.narrow.objects;
+    verdict.false_invisible_solid_angle = check.wrong.share;
+    result.push_back(verdict);
+  }
+  return result;
+}
+
 }  // namespace
 
 VerifyReport verify(const PvsFile& file, const VerifyOptions& options,
@@ -132,6 +149,9 @@ VerifyReport verify(const PvsFile& file, const VerifyOptions& options,
   });
   VerifyReport report = add_up(checks);
   add_certified(file, cells, report);
+  report.verdicts = verdicts(cells, checks);
+  report.convergence = {{options.rays_per_cell, report.overestimate_objects, report.overestimate_buildings,
+                         report.overestimate_triangles}};
   report.narrow_gap_limit_m = limit_m;
   report.elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   report.rays_per_second = ratio(static_cast<double>(report.rays), report.elapsed_s);

@@ -26,6 +26,22 @@ struct FalseInvisible {
   NarrowGap gap;  ///< that it was seen through, where the report says so
 };
 
+/// What was found for one of the cells checked.
+struct CellVerdict {
+  uint32_t cell = 0;
+  bool has_eye = false;  ///< else nothing below is filled in
+  uint64_t rays = 0;
+  uint64_t pvs_objects = 0, seen_objects = 0, pvs_triangles = 0, seen_triangles = 0;
+  uint64_t false_invisible_objects = 0, false_invisible_triangles = 0, narrow_gap_objects = 0;
+  double false_invisible_solid_angle = 0;  ///< share, 0..1
+};
+
+/// The over-estimate after so many of the rays: how it still falls says how far it may be from the truth.
+struct Convergence {
+  uint64_t rays_per_cell = 0;
+  double overestimate_objects = 0, overestimate_buildings = 0, overestimate_triangles = 0;
+};
+
 struct VerifyReport {
   uint32_t cells_checked = 0, cells_without_eye = 0;
   uint64_t rays = 0, hits = 0;
@@ -53,7 +69,9 @@ struct VerifyReport {
   uint32_t cells_certified = 0;
   double certified_median = 0, certified_worst = 0;
   double mean_pvs_objects = 0, mean_seen_objects = 0, mean_pvs_triangles = 0, mean_seen_triangles = 0;
-  double drawn_of_whole_objects = 0;  ///< triangles drawn with slices over triangles of the listed objects
+  double drawn_of_whole_objects = 0;     ///< triangles drawn with slices over triangles of the listed objects
+  std::vector<CellVerdict> verdicts;     ///< by ascending cell
+  std::vector<Convergence> convergence;  ///< by growing rays_per_cell; the last is of all rays
   double elapsed_s = 0, rays_per_second = 0;
   /// A check that shot no ray has not passed. Narrow gaps do not count.
   bool passed() const { return rays > 0 && false_invisible_objects == 0 && false_invisible_triangles == 0; }
