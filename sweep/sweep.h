@@ -1,6 +1,7 @@
 // Speed against error: a sample of cells baked and verified over a grid of settings (DESIGN section 11).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -45,6 +46,9 @@ struct SweepReport {
   uint32_t cells = 32;  ///< asked for
   uint64_t rays_per_cell = 1'000'000;
   uint64_t seed = 1;
+  /// Middles of the sampled cells of the first point, in the scene's CRS, m; other points take what cells
+  /// are there.
+  std::vector<std::array<double, 3>> places;
   std::vector<SweepPoint> points;
 };
 
