@@ -5,7 +5,7 @@
 
 #include "gl/egl_context.h"
 #include "tests/worker/occlusion_city.h"
-#include "verify/verify.h"
+#include "tests/worker/shoot.h"
 #include "worker/occlusion_method.h"
 #include "worker/reference/cell_reference.h"
 
@@ -34,32 +34,6 @@ inline std::vector<CellOcclusion> answers_of(const std::string& method, const Oc
   occlusion->bake(cells, [&](const CellOcclusion& answer) { answers.push_back(answer); });
   EXPECT_EQ(answers.size(), cells.size());
   return answers;
-}
-
-/// What rays into the model say of the rows that the answers make. The file names no size of seeds, so that
-/// nothing is excused for being seen through a narrow gap.
-inline VerifyReport shoot(const OcclusionCity& city, const std::vector<CellOcclusion>& answers,
-                          uint64_t rays_per_cell) {
-  PvsFile file;
-  file.city = city.city();
-  file.city.cells.clear();  // those that were not asked for are left out
-  file.row_begin.push_back(0);
-  for (const CellOcclusion& answer : answers) {
-    file.cell_row.push_back(static_cast<uint32_t>(file.city.cells.size()));
-    file.cell_status.push_back(CellStatus::baked);
-    file.bake_us.push_back(0);
-    file.overestimate.push_back(0);
-    file.city.cells.push_back(city.city().cells[answer.cell]);
-    for (uint32_t o = 0; o < city.city().scene.objects.size(); ++o) {
-      const VisibilityIndex index = city.row_entry(answer, o);
-      if (!index.nothing()) file.entries.push_back({o, index});
-    }
-    file.row_begin.push_back(file.entries.size());
-  }
-  VerifyOptions options;
-  options.cells = static_cast<uint32_t>(answers.size());
-  options.rays_per_cell = rays_per_cell;
-  return verify(file, options);
 }
 
 inline std::string words(const OcclusionCity& city, const reference::Witness& witness) {
