@@ -52,19 +52,22 @@ struct SweepReport {
   std::vector<SweepPoint> points;
 };
 
-/// The time that a point is judged by, ms a cell: of processors where the renderer is software (then other
-/// work on the machine hardly changes it), else by the clock.
+/// Is the renderer software? Then a point is judged by the time of processors, which other work on the
+/// machine hardly changes, else by the clock.
+bool judged_by_processor(const SweepPoint& point);
+/// That time, ms a cell.
 double judged_ms(const SweepPoint& point);
 
-/// "default", or "subdivide 4, method zoom": the changed keys without their tables.
+/// "default", or "subdivide 4, method zoom": the changed keys without their tables, on one line.
 std::string point_name(const SweepPoint& point);
 
 std::string to_json(const SweepReport& report);
 /// \throw Error(bad_input) naming `name` for what is no sweep, is of another version or is damaged.
 SweepReport sweep_from_json(const std::string& text, const std::string& name);
 
-/// Numbers of the points that no other point is both faster and tighter than, by `judged_ms` and the given
-/// over-estimate, fastest first. Points that failed or have false invisible triangles are never among them.
+/// Numbers of the points that no other point beats in one and equals or beats in the other, of `judged_ms`
+/// and the given over-estimate, fastest first. Points that failed, that saw nothing (their over-estimate is
+/// 0) or that have false invisible triangles are never among them.
 std::vector<size_t> pareto_front(const SweepReport& report, double SweepPoint::*overestimate);
 
 /// The fastest point without false invisible triangles whose over-estimate in buildings is at most the given

@@ -11,7 +11,8 @@ declare -A may=(
   [worker]="gl pvs scene"
   [merge]="pvs scene"
   [verify]="pvs scene"
-  [farm]="merge verify pvs scene worker/protocol.h worker/settings.h worker/settings_keys.h"
+  [sweep]="verify pvs scene"
+  [farm]="merge sweep verify pvs scene worker/protocol.h worker/settings.h worker/settings_keys.h"
   [viewer]="gl pvs scene"
 )
 # System headers that only some folders may include: a pattern, then those folders.
