@@ -42,6 +42,11 @@ void add_verify(CLI::App& app, CommandLine& line) {
       ->check(CLI::Range(1u, 4000000000u));
   command->add_option("--rays", options->verify.rays_per_cell, "Rays a cell [1000000]")
       ->check(CLI::Range(1.0, 1e12));
+  command
+      ->add_option(
+          "--eyes", options->verify.eyes_per_cell,
+          "Eye points a cell: corners, edges, faces, inside; with 6024 or more, 1000 on each face [64]")
+      ->check(CLI::Range(1u, 1000000u));
   command->add_option("--seed", options->verify.seed, "Of the sampling [1]");
   command->add_option("--json", options->json, "Also write the report as JSON to this file");
   command->callback(

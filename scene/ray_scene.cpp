@@ -67,11 +67,11 @@ void sort_out(std::vector<uint32_t>& triangles) {
   triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
 }
 
-Hierarchy commit(RTCDevice device, RTCGeometry geometry, const char* step) {
+Hierarchy commit(RTCDevice device, RTCGeometry geometry, RaySpeed speed, const char* step) {
   rtcCommitGeometry(geometry);
   Hierarchy hierarchy(rtcNewScene(device));
-  // Compact: a tenth slower, and half of the memory: 40 bytes a triangle, in every worker of a large city.
-  rtcSetSceneFlags(hierarchy.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT);
+  rtcSetSceneFlags(hierarchy.get(), speed == RaySpeed::fast ? RTC_SCENE_FLAG_ROBUST
+                                                            : RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT);
   rtcAttachGeometry(hierarchy.get(), geometry);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(hierarchy.get());
@@ -79,7 +79,7 @@ Hierarchy commit(RTCDevice device, RTCGeometry geometry, const char* step) {
   return hierarchy;
 }
 
-Hierarchy build_triangles(RTCDevice device, const Scene& scene) {
+Hierarchy build_triangles(RTCDevice device, const Scene& scene, RaySpeed speed) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   // Vertices are copied: Embree reads 16 bytes at every one, past the end of a vector of 12-byte ones.
   void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -88,7 +88,7 @@ Hierarchy build_triangles(RTCDevice device, const Scene& scene) {
                              sizeof(glm::uvec3), scene.triangles.size());
   check(device, "making room for the model");
   std::memcpy(vertices, scene.vertices.data(), scene.vertices.size() * sizeof(glm::vec3));
-  return commit(device, geometry, "building the hierarchy of triangles");
+  return commit(device, geometry, speed, "building the hierarchy of triangles");
 }
 
 Hierarchy build_bounds(RTCDevice device, const Scene& scene) {
@@ -98,65 +98,83 @@ Hierarchy build_bounds(RTCDevice device, const Scene& scene) {
   rtcSetGeometryBoundsFunction(
       geometry, [](const RTCBoundsFunctionArguments* a) { give_bounds(a); }, nullptr);
   rtcSetGeometryIntersectFunction(geometry, collect);
-  return commit(device, geometry, "building the hierarchy of bounds");
+  return commit(device, geometry, RaySpeed::compact, "building the hierarchy of bounds");
 }
 
 }  // namespace
 
 struct RayScene::Tracer {
-  explicit Tracer(const Scene& city) : scene(city) {
+  Tracer(const Scene& city, RaySpeed speed) : scene(city) {
     check(device.get(), "starting");
-    triangles = build_triangles(device.get(), scene);
+    triangles = build_triangles(device.get(), scene, speed);
   }
   RTCScene boxes() {
     std::call_once(bounds_made, [this] { bounds = build_bounds(device.get(), scene); });
     return bounds.get();
   }
 
+  // ray_at(i) is ray number i of `count`.
+  template <typename RayAt>
+  void trace(size_t count, const RayAt& ray_at, std::span<Hit> hits, RayOrder order) const {
+    constexpr size_t width = 16;
+    alignas(64) RTCRayHit16 packet;
+    alignas(64) int valid[width];
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = order == RayOrder::ordered ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                               : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    for (size_t begin = 0; begin < count; begin += width) {
+      const size_t in_packet = std::min(width, count - begin);
+      for (size_t i = 0; i < width; ++i) {
+        const Ray ray = ray_at(begin + std::min(i, in_packet - 1));
+        valid[i] = i < in_packet ? -1 : 0;
+        packet.ray.org_x[i] = ray.eye.x, packet.ray.org_y[i] = ray.eye.y, packet.ray.org_z[i] = ray.eye.z;
+        packet.ray.dir_x[i] = ray.direction.x, packet.ray.dir_y[i] = ray.direction.y,
+        packet.ray.dir_z[i] = ray.direction.z;
+        packet.ray.tnear[i] = 0, packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
+        packet.ray.time[i] = 0, packet.ray.mask[i] = ~0u, packet.ray.id[i] = 0, packet.ray.flags[i] = 0;
+        packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID, packet.hit.primID[i] = RTC_INVALID_GEOMETRY_ID;
+      }
+      rtcIntersect16(valid, triangles.get(), &context, &packet);
+      for (size_t i = 0; i < in_packet; ++i) {
+        const bool met = packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+        hits[begin + i] = {met ? packet.hit.primID[i] : Hit::none, packet.ray.tfar[i]};
+      }
+    }
+  }
+
   const Scene& scene;
   // One thread builds: among coincident triangles the hierarchy's order decides which is hit, and it must not
-  // vary.
-  Device device{rtcNewDevice("threads=1")};
+  // vary. While a device of one thread is the only one, Embree holds the whole process to one thread (through
+  // TBB); the other device lifts that.
+  Device device{rtcNewDevice("threads=1")}, many_threads{rtcNewDevice(nullptr)};
   Hierarchy triangles, bounds;
   std::once_flag bounds_made;
 };
 
-RayScene::RayScene(const Scene& scene) {
+RayScene::RayScene(const Scene& scene, RaySpeed speed) {
   if (scene.triangles.empty() || scene.triangles.size() >= Hit::none)
     throw Error(ExitStatus::bad_input,
                 fmt::format("rays: the scene has {} triangles; from 1 to 2^32 - 2 can be traced",
                             scene.triangles.size()));
-  tracer_ = std::make_unique<Tracer>(scene);
+  tracer_ = std::make_unique<Tracer>(scene, speed);
 }
 
 RayScene::~RayScene() = default;
 
 void RayScene::first_hits(const glm::vec3& eye, std::span<const glm::vec3> directions, std::span<Hit> hits,
                           RayOrder order) const {
-  constexpr size_t width = 16;
-  alignas(64) RTCRayHit16 packet;
-  alignas(64) int valid[width];
-  for (size_t begin = 0; begin < directions.size(); begin += width) {
-    const size_t count = std::min(width, directions.size() - begin);
-    for (size_t i = 0; i < width; ++i) {
-      const glm::vec3& direction = directions[begin + std::min(i, count - 1)];
-      valid[i] = i < count ? -1 : 0;
-      packet.ray.org_x[i] = eye.x, packet.ray.org_y[i] = eye.y, packet.ray.org_z[i] = eye.z;
-      packet.ray.dir_x[i] = direction.x, packet.ray.dir_y[i] = direction.y, packet.ray.dir_z[i] = direction.z;
-      packet.ray.tnear[i] = 0, packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
-      packet.ray.time[i] = 0, packet.ray.mask[i] = ~0u, packet.ray.id[i] = 0, packet.ray.flags[i] = 0;
-      packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID, packet.hit.primID[i] = RTC_INVALID_GEOMETRY_ID;
-    }
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = order == RayOrder::ordered ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
-                                               : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    rtcIntersect16(valid, tracer_->triangles.get(), &context, &packet);
-    for (size_t i = 0; i < count; ++i) {
-      const bool met = packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
-      hits[begin + i] = {met ? packet.hit.primID[i] : Hit::none, packet.ray.tfar[i]};
-    }
-  }
+  tracer_->trace(
+      directions.size(),
+      [&](size_t i) {
+        return Ray{eye, directions[i]};
+      },
+      hits, order);
+}
+
+void RayScene::first_hits(std::span<const Ray> rays, std::span<Hit> hits, RayOrder order) const {
+  tracer_->trace(
+      rays.size(), [&](size_t i) { return rays[i]; }, hits, order);
 }
 
 bool RayScene::blocked(const glm::vec3& from, const glm::vec3& to) const {

@@ -1,19 +1,22 @@
 #include "verify/cell_check.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
-#include <bit>
-#include <map>
-#include <set>
+#include <array>
+#include <chrono>
+#include <numeric>
 
+#include "verify/borders.h"
 #include "verify/directions.h"
 #include "verify/eyes.h"
-#include "verify/settle.h"
+#include "verify/missing.h"
 #include "verify/tightest_index.h"
 
 namespace veduta {
 namespace {
+
+constexpr size_t run = 16;  // rays from one eye before the next one's turn: a packet
+// Rays between two looks at what was found: few at first, while much is new.
+constexpr uint64_t least_round = 2048, most_round = 65536;
 
 // The triangles that a row draws, [T].
 std::vector<uint8_t> drawn_by(const PvsFile& file, uint32_t cell) {
@@ -26,73 +29,158 @@ std::vector<uint8_t> drawn_by(const PvsFile& file, uint32_t cell) {
   return drawn;
 }
 
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// Adds the time of its life to a sum.
+class Timed {
+ public:
+  explicit Timed(double& sum_s) : sum_s_(sum_s) {}
+  ~Timed() { sum_s_ += seconds_since(begin_); }
+  Timed(const Timed&) = delete;
+  Timed& operator=(const Timed&) = delete;
+
+ private:
+  double& sum_s_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
 // Shoots rays from one cell and keeps what they meet.
 class Shooter {
  public:
-  Shooter(const PvsFile& file, uint32_t cell, const RayScene& rays, double narrow_gap_limit_m)
-      : file_(file),
+  Shooter(const CheckedCity& city, uint32_t cell, const std::vector<glm::vec3>& eyes, uint64_t seed,
+          const RaySink& sink)
+      : city_(city),
         cell_(cell),
-        rays_(rays),
-        narrow_gap_limit_m_(narrow_gap_limit_m),
-        drawn_(drawn_by(file, cell)),
-        hidden_(file.city.scene, drawn_),
+        sink_(sink),
+        random_(seed),
+        eyes_(eyes),
+        order_(order_around(city.file.city.cells[cell].center(), city.centers)),
+        drawn_(drawn_by(city.file, cell)),
+        seen_(drawn_.size(), 0),
+        seen_of_object_(city.centers.size(), 0),
+        hidden_(city.file.city.scene, drawn_, order_),
         unmet_(hidden_),
-        seen_(drawn_.size(), 0) {}
-
-  // A quarter all over the sphere, half at what the row does not draw, a quarter at what it draws and no ray
-  // has met: the fewer of those, the tighter the over-estimate. Where there is nothing to aim at, all over
-  // the sphere instead.
-  void look(const glm::vec3& eye, uint64_t count, Random& random) {
-    if (std::has_single_bit(++looks_)) unmet_ = Targets(file_.city.scene, met_or_undrawn());
-    const uint64_t at_hidden = hidden_.empty() ? 0 : count / 2, at_unmet = unmet_.empty() ? 0 : count / 4;
-    const uint64_t uniform = count - at_hidden - at_unmet;
-    const Missed missed = shoot(eye, sphere_directions(uniform, random));
-    uniform_ += uniform;
-    wrong_.add(missed.wrong, uniform), narrow_.add(missed.narrow, uniform);
-    shoot(eye, hidden_.directions(eye, at_hidden, random));
-    shoot(eye, unmet_.directions(eye, at_unmet, random));
+        borders_(city.file.city.scene, city.object_of, city.file.city.cells[cell],
+                 [this](const glm::vec3& eye) {
+                   return viewer_can_be(eye, city_.file.city.navigation.free, city_.rays);
+                 }),
+        missing_(city, cell, drawn_, eyes.size()) {
+    for (size_t i = eyes_.size(); i > 1; --i) std::swap(eyes_[i - 1], eyes_[random_.below(i)]);
   }
 
-  CellCheck result() const {
-    CellCheck check;
-    check.has_eye = true;
-    check.rays = shot_, check.hits = met_, check.cleared = cleared_;
-    check.wrong = wrong_.sum(uniform_, {}), check.narrow = narrow_.sum(uniform_, wrong_.triangles);
-    count_objects(check);
-    return check;
+  void shoot_until(uint64_t rays) {
+    while (check_.rays < rays)
+      round(std::min(rays - check_.rays, std::clamp(check_.rays / 4, least_round, most_round)));
+    check_.seen.push_back(now_);
+    check_.seen.back().rays = check_.rays;
+  }
+
+  CellCheck result() {
+    check_.has_eye = true;
+    check_.wrong = missing_.wrong(), check_.narrow = missing_.narrow();
+    count_objects();
+    return check_;
   }
 
  private:
-  // Rays that met what the row does not draw.
-  struct Missed {
-    uint64_t wrong = 0, narrow = 0;
-  };
-
-  // What was seen and is not drawn, in either way.
-  struct Tally {
-    std::map<uint32_t, FalseInvisible> triangles;  // the hit that was settled
-    uint64_t uniform = 0;                          // rays of those all over the sphere
-    double worst_share = 0;
-
-    void add(uint64_t rays, uint64_t of) {
-      uniform += rays;
-      if (of > 0) worst_share = std::max(worst_share, static_cast<double>(rays) / static_cast<double>(of));
+  // A quarter of the rays go all over the sphere, a quarter at what the row does not draw, an eighth at what
+  // it draws and no ray has met, the rest past the borders of what was met. Where there is nothing to aim at,
+  // all over the sphere instead.
+  void round(uint64_t count) {
+    if (check_.rays >= next_unmet_) {
+      const Timed timed(check_.times.directions_s);
+      unmet_ = Targets(city_.file.city.scene, met_or_undrawn(), order_);
+      next_unmet_ = 2 * check_.rays;
     }
+    const uint64_t end = check_.rays + count;
+    if (!hidden_.empty()) aim(hidden_, count / 4);
+    if (!unmet_.empty()) aim(unmet_, count / 8);
+    if (!borders_.empty()) past_borders(3 * count / 8);
+    if (check_.rays < end) all_around(end - check_.rays);
+  }
 
-    // Leaves out the objects of `others`.
-    CellCheck::Missing sum(uint64_t of, const std::map<uint32_t, FalseInvisible>& others) const {
-      CellCheck::Missing result;
-      result.share = of == 0 ? 0 : static_cast<double>(uniform) / static_cast<double>(of);
-      result.worst_share = worst_share;
-      result.triangles = triangles.size();
-      std::set<uint32_t> left_out;
-      for (const auto& [triangle, example] : others) left_out.insert(example.object);
-      for (const auto& [triangle, example] : triangles)
-        if (!left_out.contains(example.object)) add_example(result.examples, example);
-      result.objects = result.examples.size();
-      return result;
+  void all_around(uint64_t count) {
+    const size_t first_eye = next_eye_;
+    {
+      const Timed timed(check_.times.directions_s);
+      from_eyes(sphere_directions(count, random_));
     }
-  };
+    for (size_t i = 0; i < rays_.size(); i += run)
+      missing_.looked((first_eye + i / run) % eyes_.size(), std::min(run, rays_.size() - i));
+    shoot([&](size_t ray, MissingFinder::Verdict verdict) {
+      missing_.count((first_eye + ray / run) % eyes_.size(), verdict);
+    });
+  }
+
+  void aim(const Targets& targets, uint64_t count) {
+    {
+      const Timed timed(check_.times.directions_s);
+      const auto points = targets.points(count / 2, random_);
+      rays_.resize(points.size());
+      for (size_t i = 0; i < points.size(); ++i) {
+        const glm::vec3& eye = eyes_[(next_eye_ + i / run) % eyes_.size()];
+        rays_[i] = {eye, direction_to(points[i], eye)};
+      }
+      next_eye_ = (next_eye_ + (points.size() + run - 1) / run) % eyes_.size();
+    }
+    shoot([](size_t, MissingFinder::Verdict) {});
+  }
+
+  void past_borders(uint64_t count) {
+    {
+      const Timed timed(check_.times.directions_s);
+      borders_.aim(count, eyes_, random_, rays_);
+    }
+    shoot([](size_t, MissingFinder::Verdict) {});
+    const Timed timed(check_.times.directions_s);
+    borders_.learn(rays_, hits_, random_);
+  }
+
+  void from_eyes(const std::vector<glm::vec3>& directions) {
+    rays_.resize(directions.size());
+    for (size_t i = 0; i < directions.size(); ++i)
+      rays_[i] = {eyes_[(next_eye_ + i / run) % eyes_.size()], directions[i]};
+    next_eye_ = (next_eye_ + (directions.size() + run - 1) / run) % eyes_.size();
+  }
+
+  // missed(ray, verdict) is told of hits on what the row does not draw.
+  template <typename Missed>
+  void shoot(const Missed& missed) {
+    hits_.resize(rays_.size());
+    if (sink_) sink_(rays_);
+    {
+      const Timed timed(check_.times.tracing_s);
+      city_.rays.first_hits(rays_, hits_);
+    }
+    check_.rays += rays_.size();
+    for (size_t i = 0; i < rays_.size(); ++i) {
+      const uint32_t triangle = hits_[i].triangle;
+      if (triangle == Hit::none) continue;
+      ++check_.hits;
+      if (!drawn_[triangle]) {
+        const Timed timed(check_.times.settling_s);
+        const MissingFinder::Settled settled = missing_.settle(rays_[i], hits_[i]);
+        check_.cleared += settled.verdict == MissingFinder::Verdict::cleared;
+        if (settled.verdict == MissingFinder::Verdict::wrong) see(settled.triangle, rays_[i].eye);
+        missed(i, settled.verdict);
+      } else if (!seen_[triangle]) {
+        see(triangle, rays_[i].eye);
+      }
+    }
+  }
+
+  void see(uint32_t triangle, const glm::vec3& eye) {
+    if (seen_[triangle]) return;
+    seen_[triangle] = 1;
+    borders_.add(triangle, eye);
+    ++now_.triangles;
+    const uint32_t object = city_.object_of[triangle];
+    if (seen_of_object_[object]++ > 0) return;
+    ++now_.objects;
+    now_.buildings += city_.file.city.scene.objects[object].kind == Kind::building;
+  }
 
   std::vector<uint8_t> met_or_undrawn() const {
     std::vector<uint8_t> result(drawn_.size());
@@ -100,122 +188,59 @@ class Shooter {
     return result;
   }
 
-  Missed shoot(const glm::vec3& eye, const std::vector<glm::vec3>& directions) {
-    hits_.resize(directions.size());
-    rays_.first_hits(eye, directions, hits_);
-    Missed missed;
-    for (size_t i = 0; i < directions.size(); ++i) {
-      if (hits_[i].triangle == Hit::none) continue;
-      ++met_;
-      if (drawn_[hits_[i].triangle])
-        seen_[hits_[i].triangle] = 1;
-      else
-        settle(eye, directions[i], hits_[i], missed);
+  void count_objects() {
+    const Scene& scene = city_.file.city.scene;
+    for (const PvsEntry& entry : city_.file.row(cell_)) {
+      const Object& object = scene.objects[entry.object];
+      ++check_.pvs_objects;
+      check_.pvs_buildings += object.kind == Kind::building;
+      check_.whole_triangles += object.triangle_end - object.triangle_begin;
     }
-    shot_ += directions.size();
-    return missed;
-  }
-
-  // Is a hit on an undrawn triangle what a viewer would see, and is that a fault? A triangle that is a fault
-  // from this cell stays one: settling each of a million hits on a forgotten house would take hours. One that
-  // was seen through a narrow gap is looked at again at every hit.
-  void settle(const glm::vec3& eye, const glm::vec3& direction, const Hit& hit, Missed& missed) {
-    if (wrong_.triangles.contains(hit.triangle)) {
-      ++missed.wrong;
-      return;
-    }
-    const Scene& scene = file_.city.scene;
-    const auto candidates = rays_.triangles_near(eye, direction, hit.distance_m);
-    const auto triangle = undrawn_met_first(scene, eye, direction, candidates, drawn_);
-    if (!triangle) {
-      ++cleared_;
-      return;
-    }
-    FalseInvisible example{
-        cell_, object_of(*triangle), *triangle, eye, direction, eye + direction * hit.distance_m, {}};
-    const auto gap = narrow_gap(scene, rays_, eye, direction, hit.distance_m, narrow_gap_limit_m_);
-    if (gap && !wrong_.triangles.contains(*triangle)) {
-      example.gap = *gap;
-      ++missed.narrow;
-      narrow_.triangles.try_emplace(*triangle, example);
-      return;
-    }
-    ++missed.wrong;
-    seen_[*triangle] = 1;
-    wrong_.triangles.try_emplace(*triangle, example);
-    narrow_.triangles.erase(*triangle);
-  }
-
-  uint32_t object_of(uint32_t triangle) const {
-    const auto& objects = file_.city.scene.objects;
-    const auto after =
-        std::upper_bound(objects.begin(), objects.end(), triangle,
-                         [](uint64_t t, const Object& object) { return t < object.triangle_end; });
-    return static_cast<uint32_t>(after - objects.begin());
-  }
-
-  // Examples come in the order of triangles, so one object's examples follow each other.
-  static void add_example(std::vector<FalseInvisible>& examples, const FalseInvisible& example) {
-    if (examples.empty() || examples.back().object != example.object)
-      examples.push_back(example);
-    else if (glm::distance(example.eye, example.hit) <
-             glm::distance(examples.back().eye, examples.back().hit))
-      examples.back() = example;
-  }
-
-  void count_objects(CellCheck& check) const {
-    for (const PvsEntry& entry : file_.row(cell_)) {
-      const Object& object = file_.city.scene.objects[entry.object];
-      ++check.pvs_objects;
-      check.pvs_buildings += object.kind == Kind::building;
-      check.whole_triangles += object.triangle_end - object.triangle_begin;
-    }
-    for (const Object& object : file_.city.scene.objects) {
-      uint64_t seen = 0;
-      for (uint64_t t = object.triangle_begin; t < object.triangle_end; ++t) {
-        seen += seen_[t];
-        check.pvs_triangles += drawn_[t];
-      }
-      check.seen_triangles += seen;
-      check.seen_objects += seen > 0;
-      check.seen_buildings += seen > 0 && object.kind == Kind::building;
-      if (seen == 0) continue;
-      const uint64_t count = object.triangle_end - object.triangle_begin;
-      check.seen_whole_triangles += count;
-      check.tightest_triangles += tightest_index({&file_.city.triangle_slices[object.triangle_begin], count},
-                                                 {&seen_[object.triangle_begin], count})
-                                      .drawn;
+    check_.pvs_triangles = static_cast<uint64_t>(std::count(drawn_.begin(), drawn_.end(), 1));
+    for (size_t o = 0; o < scene.objects.size(); ++o) {
+      if (seen_of_object_[o] == 0) continue;
+      const uint64_t begin = scene.objects[o].triangle_begin, count = scene.objects[o].triangle_end - begin;
+      check_.seen_whole_triangles += count;
+      check_.tightest_triangles +=
+          tightest_index({&city_.file.city.triangle_slices[begin], count}, {&seen_[begin], count}).drawn;
     }
   }
 
-  const PvsFile& file_;
+  const CheckedCity& city_;
   uint32_t cell_;
-  const RayScene& rays_;
-  double narrow_gap_limit_m_;
-  std::vector<uint8_t> drawn_;
+  const RaySink& sink_;
+  Random random_;
+  std::vector<glm::vec3> eyes_;
+  std::vector<uint32_t> order_;  // of objects
+  std::vector<uint8_t> drawn_, seen_;
+  std::vector<uint32_t> seen_of_object_;  // [O] triangles
   Targets hidden_, unmet_;
-  uint32_t looks_ = 0;
-  std::vector<uint8_t> seen_;
+  Borders borders_;
+  MissingFinder missing_;
+  uint64_t next_unmet_ = 0;
+  size_t next_eye_ = 0;
+  std::vector<Ray> rays_;
   std::vector<Hit> hits_;
-  Tally wrong_, narrow_;  // no triangle is in both
-  uint64_t shot_ = 0, met_ = 0, cleared_ = 0, uniform_ = 0;
+  CellCheck::Seen now_;
+  CellCheck check_;
 };
 
 }  // namespace
 
-CellCheck check_cell(const PvsFile& file, uint32_t cell, const VerifyOptions& options, const RayScene& rays,
-                     double narrow_gap_limit_m) {
+CellCheck check_cell(const CheckedCity& city, uint32_t cell, const VerifyOptions& options,
+                     const RaySink& sink) {
+  const auto begin = std::chrono::steady_clock::now();
   Random random(options.seed, cell);
-  const auto eyes = eye_points(file.city.cells[cell], std::max(1u, options.eyes_per_cell),
-                               file.city.navigation.free, rays, Random(random.bits()));
+  const auto eyes = eye_points(city.file.city.cells[cell], std::max(1u, options.eyes_per_cell),
+                               city.file.city.navigation.free, city.rays, Random(random.bits()));
   if (eyes.empty()) return {};
-  Shooter shooter(file, cell, rays, narrow_gap_limit_m);
-  for (size_t i = 0; i < eyes.size(); ++i) {
-    const uint64_t begin = options.rays_per_cell * i / eyes.size(),
-                   end = options.rays_per_cell * (i + 1) / eyes.size();
-    shooter.look(eyes[i], end - begin, random);
-  }
-  return shooter.result();
+  const double eyes_s = seconds_since(begin);
+  Shooter shooter(city, cell, eyes, random.bits(), sink);
+  for (const uint64_t part : {8, 4, 2, 1}) shooter.shoot_until(options.rays_per_cell / part);
+  CellCheck check = shooter.result();
+  check.times.eyes_s = eyes_s;
+  check.times.total_s = seconds_since(begin);
+  return check;
 }
 
 }  // namespace veduta

@@ -1,7 +1,10 @@
 // One view-cell against rays.
 #pragma once
 
-#include "scene/ray_scene.h"
+#include <functional>
+#include <span>
+
+#include "verify/checked_city.h"
 #include "verify/verify.h"
 
 namespace veduta {
@@ -20,16 +23,22 @@ struct CellCheck {
   };
   Missing wrong;   ///< false invisible
   Missing narrow;  ///< seen through nothing but narrow gaps; its objects are not in `wrong`
-  uint64_t pvs_objects = 0, seen_objects = 0, pvs_buildings = 0, seen_buildings = 0;
-  uint64_t pvs_triangles = 0, seen_triangles = 0;
+  struct Seen {
+    uint64_t rays = 0, objects = 0, buildings = 0, triangles = 0;
+  };
+  std::vector<Seen> seen;  ///< after 1/8, 1/4, 1/2 and all of the rays
+  uint64_t pvs_objects = 0, pvs_buildings = 0, pvs_triangles = 0;
   uint64_t whole_triangles = 0;       ///< of the listed objects, drawn or not
   uint64_t seen_whole_triangles = 0;  ///< of the seen objects, seen or not
   uint64_t tightest_triangles = 0;    ///< of the smallest row that draws all that was seen
+  VerifyTimes times;                  ///< of this cell; without set_up_s
 };
 
-/// Half of the rays go all over the sphere, half at what the row does not draw. Depends on nothing but its
-/// arguments.
-CellCheck check_cell(const PvsFile& file, uint32_t cell, const VerifyOptions& options, const RayScene& rays,
-                     double narrow_gap_limit_m);
+/// Rays of a kind that follow each other, as they were traced.
+using RaySink = std::function<void(std::span<const Ray>)>;
+
+/// Depends on nothing but the file and the options. \param sink gets all rays, for whom it may concern.
+CellCheck check_cell(const CheckedCity& city, uint32_t cell, const VerifyOptions& options,
+                     const RaySink& sink = {});
 
 }  // namespace veduta

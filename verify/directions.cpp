@@ -6,9 +6,19 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace veduta {
 namespace {
+
+// Every other bit, from the lowest on.
+uint32_t gathered(uint32_t bits) {
+  bits &= 0x55555555u;
+  bits = (bits | (bits >> 1)) & 0x33333333u;
+  bits = (bits | (bits >> 2)) & 0x0f0f0f0fu;
+  bits = (bits | (bits >> 4)) & 0x00ff00ffu;
+  return (bits | (bits >> 8)) & 0x0000ffffu;
+}
 
 uint32_t spread(uint32_t bits) {
   bits = (bits | (bits << 8)) & 0x00ff00ffu;
@@ -17,44 +27,59 @@ uint32_t spread(uint32_t bits) {
   return (bits | (bits << 1)) & 0x55555555u;
 }
 
-// Along a Morton curve over the octahedral map of the sphere.
-uint32_t morton(const glm::vec3& direction) {
-  const float sum = std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
-  float u = direction.x / sum, v = direction.y / sum;
-  if (direction.z < 0) {
-    const float folded = (1 - std::abs(v)) * (u < 0 ? -1.0f : 1.0f);
-    v = (1 - std::abs(u)) * (v < 0 ? -1.0f : 1.0f);
-    u = folded;
-  }
-  const auto grid = [](float x) { return static_cast<uint32_t>(std::clamp((x + 1) * 512, 0.0f, 1023.0f)); };
-  return spread(grid(u)) | (spread(grid(v)) << 1);
+// The part of `count` equal parts of `size` things that a random number falls into, within part i.
+size_t pick(size_t i, size_t count, size_t size, Random& random) {
+  const double at = (static_cast<double>(i) + random.unit()) / static_cast<double>(count);
+  return std::min(size - 1, static_cast<size_t>(at * static_cast<double>(size)));
 }
 
 }  // namespace
 
 std::vector<glm::vec3> sphere_directions(size_t count, Random& random) {
-  // Bands of equal height have equal area (Archimedes); each takes its share of the count, dealt out evenly.
   std::vector<glm::vec3> directions;
   directions.reserve(count);
-  const size_t bands = std::max<size_t>(1, static_cast<size_t>(std::sqrt(static_cast<double>(count) / 2)));
-  for (size_t band = 0; band < bands; ++band) {
-    const size_t in_band = count * (band + 1) / bands - count * band / bands;
-    // A band with one direction more than another is a little higher: solid angle by direction, not by band.
-    const double below = static_cast<double>(count * band / bands);
-    for (size_t i = 0; i < in_band; ++i) {
-      const double z =
-          -1 + 2 * (below + random.unit() * static_cast<double>(in_band)) / static_cast<double>(count);
-      const double angle =
-          2 * std::numbers::pi * (static_cast<double>(i) + random.unit()) / static_cast<double>(in_band);
-      const double radius = std::sqrt(std::max(0.0, 1 - z * z));
-      directions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
-    }
+  for (size_t i = 0; i < count; ++i) {
+    // The curve fills the square, and the square wraps a cylinder, on which areas are those of the sphere
+    // (Archimedes).
+    const double along = (static_cast<double>(i) + random.unit()) / static_cast<double>(count);
+    const auto code = static_cast<uint32_t>(along * 0x1p32);
+    const uint64_t fine = random.bits();
+    const float x =
+        (static_cast<float>(gathered(code)) + static_cast<float>(fine >> 40) * 0x1p-24f) * 0x1p-16f;
+    const float y =
+        (static_cast<float>(gathered(code >> 1)) + static_cast<float>(fine & 0xffffff) * 0x1p-24f) * 0x1p-16f;
+    const float angle = 2 * std::numbers::pi_v<float> * x, z = 2 * y - 1;
+    const float radius = std::sqrt(std::max(0.0f, 1 - z * z));
+    directions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
   }
   return directions;
 }
 
-Targets::Targets(const Scene& scene, const std::vector<uint8_t>& left_out) : scene_(&scene) {
-  for (const Object& object : scene.objects) {
+glm::vec3 direction_to(const glm::vec3& point, const glm::vec3& eye) {
+  const glm::vec3 way = point - eye;
+  const float length2 = glm::dot(way, way);
+  return length2 > 0 ? way * (1 / std::sqrt(length2)) : glm::vec3(0, 0, 1);
+}
+
+uint32_t curve_key(const glm::vec3& direction) {
+  const auto grid = [](float x) { return static_cast<uint32_t>(std::clamp(x * 65536, 0.0f, 65535.0f)); };
+  const float turn = std::atan2(direction.y, direction.x) / (2 * std::numbers::pi_v<float>);
+  return spread(grid(turn < 0 ? turn + 1 : turn)) | (spread(grid(0.5f * (direction.z + 1))) << 1);
+}
+
+std::vector<uint32_t> order_around(const glm::vec3& point, std::span<const glm::vec3> places) {
+  std::vector<uint32_t> keys;
+  for (const glm::vec3& place : places) keys.push_back(curve_key(direction_to(place, point)));
+  std::vector<uint32_t> order(keys.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return keys[a] < keys[b]; });
+  return order;
+}
+
+Targets::Targets(const Scene& scene, const std::vector<uint8_t>& left_out, const std::vector<uint32_t>& order)
+    : scene_(&scene) {
+  for (const uint32_t o : order) {
+    const Object& object = scene.objects[o];
     const size_t before = triangles_.size();
     for (uint64_t t = object.triangle_begin; t < object.triangle_end; ++t)
       if (!left_out[t]) triangles_.push_back(static_cast<uint32_t>(t));
@@ -63,39 +88,34 @@ Targets::Targets(const Scene& scene, const std::vector<uint8_t>& left_out) : sce
   object_begin_.push_back(static_cast<uint32_t>(triangles_.size()));
 }
 
-glm::vec3 Targets::point(Random& random) const {
-  uint32_t first = 0, last = static_cast<uint32_t>(triangles_.size());
-  if (random.below(2) == 0) {
-    const uint32_t object = random.below(object_begin_.size() - 1);
-    first = object_begin_[object], last = object_begin_[object + 1];
-  }
-  const glm::uvec3& triangle = scene_->triangles[triangles_[first + random.below(last - first)]];
-  glm::vec3 corner[3] = {scene_->vertices[triangle.x], scene_->vertices[triangle.y],
-                         scene_->vertices[triangle.z]};
-  if (random.below(2) == 0) {
+glm::vec3 Targets::point(uint32_t triangle, Random& random) const {
+  const glm::uvec3& corners = scene_->triangles[triangle];
+  const uint64_t bits = random.bits();
+  float root = std::sqrt(static_cast<float>(bits >> 40) * 0x1p-24f);
+  const float side = static_cast<float>(bits >> 16 & 0xffffff) * 0x1p-24f;
+  uint32_t first = 0;
+  if (bits & 1) {
     // Shrunk to a fiftieth around one corner.
-    const glm::vec3 center = corner[random.below(3)];
-    for (glm::vec3& c : corner) c = glm::mix(center, c, 0.02f);
+    root *= 0.02f;
+    first = static_cast<uint32_t>((bits & 0xffff) * 3 >> 16);
   }
-  const float root = std::sqrt(random.unit()), side = random.unit();
-  return corner[0] * (1 - root) + corner[1] * (root * (1 - side)) + corner[2] * (root * side);
+  const glm::vec3 &a = scene_->vertices[corners[static_cast<int>(first)]],
+                  &b = scene_->vertices[corners[static_cast<int>((first + 1) % 3)]],
+                  &c = scene_->vertices[corners[static_cast<int>((first + 2) % 3)]];
+  return a * (1 - root) + b * (root * (1 - side)) + c * (root * side);
 }
 
-std::vector<glm::vec3> Targets::directions(const glm::vec3& eye, size_t count, Random& random) const {
-  std::vector<std::pair<uint32_t, glm::vec3>> keyed;
-  keyed.reserve(count);
-  while (keyed.size() < count) {
-    const glm::vec3 direction = glm::normalize(point(random) - eye);
-    // An eye on the target itself has no direction to it.
-    const glm::vec3 safe = std::isfinite(direction.x) ? direction : glm::vec3(0, 0, 1);
-    keyed.emplace_back(morton(safe), safe);
+std::vector<glm::vec3> Targets::points(size_t count, Random& random) const {
+  std::vector<glm::vec3> result;
+  result.reserve(2 * count);
+  for (size_t i = 0; i < count; ++i)
+    result.push_back(point(triangles_[pick(i, count, triangles_.size(), random)], random));
+  for (size_t i = 0; i < count; ++i) {
+    const size_t object = pick(i, count, object_begin_.size() - 1, random);
+    const uint32_t begin = object_begin_[object], end = object_begin_[object + 1];
+    result.push_back(point(triangles_[begin + random.below(end - begin)], random));
   }
-  std::stable_sort(keyed.begin(), keyed.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<glm::vec3> directions;
-  directions.reserve(count);
-  for (const auto& [key, direction] : keyed) directions.push_back(direction);
-  return directions;
+  return result;
 }
 
 }  // namespace veduta

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "scene/random.h"
@@ -11,28 +12,39 @@
 namespace veduta {
 
 /// `count` unit vectors, uniform over the sphere: one at a random place of each of `count` strata of equal
-/// solid angle. Neighbours in the result lie close together. Solid angles are estimated from these alone.
+/// solid angle, along a Morton curve, so that neighbours in the result lie close together. Solid angles are
+/// estimated from these alone.
 std::vector<glm::vec3> sphere_directions(size_t count, Random& random);
 
-/// Triangles to aim at: those that a row does not draw, where an error would show, and those that it draws
+/// The unit vector from the eye to a point; upwards where they are the same point.
+glm::vec3 direction_to(const glm::vec3& point, const glm::vec3& eye);
+
+/// Where a direction lies along that curve.
+uint32_t curve_key(const glm::vec3& direction);
+
+/// The numbers of some places by the direction in which they lie from a point, along the curve.
+std::vector<uint32_t> order_around(const glm::vec3& point, std::span<const glm::vec3> places);
+
+/// Triangles to aim at: those that a row does not draw, where an error would show, or those that it draws
 /// and no ray has met yet. (In a walk through a city most of the sphere is ground, sky and the next wall.)
 class Targets {
  public:
-  /// `left_out`: [T], 1 for a triangle that is no target, else 0.
-  Targets(const Scene& scene, const std::vector<uint8_t>& left_out);
+  /// \param left_out [T], 1 for a triangle that is no target, else 0.
+  /// \param order of objects, such that those that follow each other lie close together.
+  Targets(const Scene& scene, const std::vector<uint8_t>& left_out, const std::vector<uint32_t>& order);
   bool empty() const { return triangles_.empty(); }
 
-  /// `count` unit vectors from the eye to random points: of a random target, or of a random object's
-  /// random target, by turns (a tower of 12 triangles is not lost beside a tree of 10,000); half of
-  /// the points anywhere on it, half by a corner, since what shows first over an occluder or past it is a
-  /// corner. In Morton order of direction.
-  std::vector<glm::vec3> directions(const glm::vec3& eye, size_t count, Random& random) const;
+  /// `count` points, one in each of `count` equal parts of the targets, and after them as many, each of a
+  /// random target of an object in each of `count` equal parts of the objects (a tower of 12 triangles is not
+  /// lost beside a tree of 10,000). Half of the points anywhere on the triangle, half by a corner: what shows
+  /// first over an occluder or past it is a corner.
+  std::vector<glm::vec3> points(size_t count, Random& random) const;
 
  private:
-  glm::vec3 point(Random& random) const;
+  glm::vec3 point(uint32_t triangle, Random& random) const;
 
   const Scene* scene_;
-  std::vector<uint32_t> triangles_;     ///< the targets, ascending, so by object
+  std::vector<uint32_t> triangles_;     ///< the targets, by object
   std::vector<uint32_t> object_begin_;  ///< [O+1] into triangles_, of objects with any
 };
 

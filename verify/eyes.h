@@ -16,9 +16,15 @@ namespace veduta {
 /// passes through).
 bool viewer_can_be(const glm::vec3& eye, const OctreeForest& free, const RayScene& rays);
 
+/// From so many eye points on a cell they follow the protocol of GVS++ (Koch & Wimmer 2021): on each of the 6
+/// faces 1000 points of a Halton sequence, and 24 corners (here the 8 corners, the 12 middles of edges and 4
+/// of those of faces, each once).
+inline constexpr size_t protocol_eyes = 6024;
+
 /// Up to `count` eye points of the cell: its 8 corners, the midpoints of its 12 edges and 6 faces, then
 /// points of a shifted Halton sequence inside; those where a viewer can't be are replaced by more of the
-/// sequence, for a bounded number of tries (64 a point). Empty when no try succeeded.
+/// sequence, for a bounded number of tries (64 a point). Empty when no try succeeded. With `protocol_eyes` or
+/// more, first the points on the faces, as far as a viewer can be there.
 std::vector<glm::vec3> eye_points(const Box& cell, size_t count, const OctreeForest& free,
                                   const RayScene& rays, Random random);
 

@@ -37,6 +37,33 @@ nlohmann::ordered_json as_json(const FalseInvisible& example, const PvsFile& fil
           {"hit_m", as_array(example.hit)}};
 }
 
+// "1.71x, 1.66x, 1.61x, 1.58x"
+std::string as_text(const std::vector<Convergence>& parts, double Convergence::*overestimate) {
+  std::string text;
+  for (const Convergence& part : parts)
+    text += fmt::format("{}{:.2f}x", text.empty() ? "" : ", ", part.*overestimate);
+  return text;
+}
+
+// "2 million", "40,000" without the comma
+std::string as_count(uint64_t rays) {
+  return rays >= 1'000'000 ? fmt::format("{:.3g} million", static_cast<double>(rays) / 1e6)
+                           : fmt::format("{}", rays);
+}
+
+std::string describe(const std::vector<Convergence>& parts) {
+  if (parts.size() < 2) return {};
+  const Convergence &last = parts.back(), &half = parts[parts.size() - 2];
+  // By the last doubling of the rays.
+  const bool falls = half.overestimate_objects - last.overestimate_objects > 0.01 * last.overestimate_objects;
+  return fmt::format("as rays double   {}: {} in objects, {} in triangles, from {} to {} rays a cell\n",
+                     falls ? "the over-estimate still falls"
+                           : "the over-estimate has settled (the last doubling moved it by under 1 %)",
+                     as_text(parts, &Convergence::overestimate_objects),
+                     as_text(parts, &Convergence::overestimate_triangles),
+                     as_count(parts.front().rays_per_cell), as_count(last.rays_per_cell));
+}
+
 }  // namespace
 
 std::string describe(const VerifyReport& report, const PvsFile& file) {
@@ -62,6 +89,7 @@ std::string describe(const VerifyReport& report, const PvsFile& file) {
       "triangles\n",
       report.overestimate_objects, report.overestimate_objects_median, report.overestimate_objects_worst,
       report.overestimate_buildings, report.overestimate_triangles);
+  text += describe(report.convergence);
   text += fmt::format(
       "of that, format  {:.2f}x in triangles: the tightest rows that draw what was seen (whole objects: "
       "{:.2f}x)\n",
@@ -134,6 +162,15 @@ std::string describe_json(const VerifyReport& report, const PvsFile& file) {
       {"elapsed_s", report.elapsed_s},
       {"rays_per_second", report.rays_per_second},
   };
+  for (const Convergence& part : report.convergence)
+    json["convergence"].push_back({{"rays_per_cell", part.rays_per_cell},
+                                   {"overestimate_objects", part.overestimate_objects},
+                                   {"overestimate_buildings", part.overestimate_buildings},
+                                   {"overestimate_triangles", part.overestimate_triangles}});
+  const VerifyTimes& times = report.times;
+  json["times_s"] = {{"set_up", times.set_up_s},         {"eyes", times.eyes_s},
+                     {"directions", times.directions_s}, {"tracing", times.tracing_s},
+                     {"settling", times.settling_s},     {"total", times.total_s}};
   json["examples"] = nlohmann::ordered_json::array();
   for (const FalseInvisible& example : report.examples) json["examples"].push_back(as_json(example, file));
   json["narrow_gap_examples"] = nlohmann::ordered_json::array();

@@ -48,9 +48,15 @@ void add(CellCheck::Missing& sum, const CellCheck::Missing& cell) {
   sum.examples.insert(sum.examples.end(), cell.examples.begin(), cell.examples.end());
 }
 
+void add(VerifyTimes& sum, const VerifyTimes& cell) {
+  sum.eyes_s += cell.eyes_s, sum.directions_s += cell.directions_s, sum.tracing_s += cell.tracing_s;
+  sum.settling_s += cell.settling_s, sum.total_s += cell.total_s;
+}
+
 VerifyReport add_up(const std::vector<CellCheck>& checks) {
   VerifyReport report;
   CellCheck sum;
+  CellCheck::Seen seen;
   std::vector<double> overestimates;
   for (const CellCheck& check : checks) {
     ++report.cells_checked;
@@ -58,23 +64,26 @@ VerifyReport add_up(const std::vector<CellCheck>& checks) {
       ++report.cells_without_eye;
       continue;
     }
+    add(report.times, check.times);
     report.rays += check.rays, report.hits += check.hits, report.grazing_settled += check.cleared;
     add(sum.wrong, check.wrong), add(sum.narrow, check.narrow);
-    sum.pvs_objects += check.pvs_objects, sum.seen_objects += check.seen_objects;
-    sum.pvs_buildings += check.pvs_buildings, sum.seen_buildings += check.seen_buildings;
-    sum.pvs_triangles += check.pvs_triangles, sum.seen_triangles += check.seen_triangles;
+    sum.pvs_objects += check.pvs_objects, sum.pvs_buildings += check.pvs_buildings;
+    sum.pvs_triangles += check.pvs_triangles;
+    const CellCheck::Seen& cell_seen = check.seen.back();
+    seen.objects += cell_seen.objects, seen.buildings += cell_seen.buildings,
+        seen.triangles += cell_seen.triangles;
     sum.whole_triangles += check.whole_triangles;
     sum.tightest_triangles += check.tightest_triangles;
     sum.seen_whole_triangles += check.seen_whole_triangles;
-    if (check.seen_objects > 0)
+    if (cell_seen.objects > 0)
       overestimates.push_back(
-          ratio(static_cast<double>(check.pvs_objects), static_cast<double>(check.seen_objects)));
+          ratio(static_cast<double>(check.pvs_objects), static_cast<double>(cell_seen.objects)));
   }
   const double looked = report.cells_checked - report.cells_without_eye;
   const double pvs_objects = static_cast<double>(sum.pvs_objects),
-               seen_objects = static_cast<double>(sum.seen_objects);
+               seen_objects = static_cast<double>(seen.objects);
   const double pvs_triangles = static_cast<double>(sum.pvs_triangles),
-               seen_triangles = static_cast<double>(sum.seen_triangles);
+               seen_triangles = static_cast<double>(seen.triangles);
   report.false_invisible_objects = sum.wrong.objects, report.false_invisible_triangles = sum.wrong.triangles;
   report.false_invisible_solid_angle_mean = ratio(sum.wrong.share, looked);
   report.false_invisible_solid_angle_worst = sum.wrong.worst_share;
@@ -83,7 +92,7 @@ VerifyReport add_up(const std::vector<CellCheck>& checks) {
   report.narrow_gap_solid_angle_worst = sum.narrow.worst_share;
   report.overestimate_objects = ratio(pvs_objects, seen_objects);
   report.overestimate_buildings =
-      ratio(static_cast<double>(sum.pvs_buildings), static_cast<double>(sum.seen_buildings));
+      ratio(static_cast<double>(sum.pvs_buildings), static_cast<double>(seen.buildings));
   report.overestimate_triangles = ratio(pvs_triangles, seen_triangles);
   report.tightest_triangles = ratio(static_cast<double>(sum.tightest_triangles), seen_triangles);
   report.whole_seen_objects_triangles = ratio(static_cast<double>(sum.seen_whole_triangles), seen_triangles);
@@ -119,8 +128,9 @@ std::vector<CellVerdict> verdicts(const std::vector<uint32_t>& cells, const std:
     const CellCheck& check = checks[i];
     CellVerdict verdict;
     verdict.cell = cells[i], verdict.has_eye = check.has_eye, verdict.rays = check.rays;
-    verdict.pvs_objects = check.pvs_objects, verdict.seen_objects = check.seen_objects;
-    verdict.pvs_triangles = check.pvs_triangles, verdict.seen_triangles = check.seen_triangles;
+    verdict.pvs_objects = check.pvs_objects, verdict.pvs_triangles = check.pvs_triangles;
+    if (check.has_eye)
+      verdict.seen_objects = check.seen.back().objects, verdict.seen_triangles = check.seen.back().triangles;
     verdict.false_invisible_objects = check.wrong.objects;
     verdict.false_invisible_triangles = check.wrong.triangles;
     verdict.narrow_gap_objects = check.narrow.objects;
@@ -130,19 +140,41 @@ std::vector<CellVerdict> verdicts(const std::vector<uint32_t>& cells, const std:
   return result;
 }
 
+// Over all cells, after each part of the rays.
+std::vector<Convergence> convergence(const std::vector<CellCheck>& checks) {
+  std::vector<Convergence> result;
+  double objects = 0, buildings = 0, triangles = 0;
+  std::vector<CellCheck::Seen> seen;
+  for (const CellCheck& check : checks) {
+    objects += static_cast<double>(check.pvs_objects), buildings += static_cast<double>(check.pvs_buildings);
+    triangles += static_cast<double>(check.pvs_triangles);
+    seen.resize(std::max(seen.size(), check.seen.size()));
+    for (size_t i = 0; i < check.seen.size(); ++i) {
+      seen[i].rays = check.seen[i].rays;
+      seen[i].objects += check.seen[i].objects, seen[i].buildings += check.seen[i].buildings;
+      seen[i].triangles += check.seen[i].triangles;
+    }
+  }
+  for (const CellCheck::Seen& part : seen)
+    result.push_back({part.rays, ratio(objects, static_cast<double>(part.objects)),
+                      ratio(buildings, static_cast<double>(part.buildings)),
+                      ratio(triangles, static_cast<double>(part.triangles))});
+  return result;
+}
+
 }  // namespace
 
 VerifyReport verify(const PvsFile& file, const VerifyOptions& options,
                     const std::function<void(uint32_t done, uint32_t total)>& progress) {
   const auto begin = std::chrono::steady_clock::now();
-  const RayScene rays(file.city.scene);
-  const double limit_m = narrow_gap_limit_m(file.header.config);
+  const CheckedCity city(file);
+  const double set_up_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const std::vector<uint32_t> cells = sample_cells(file.city.cells.size(), options.cells, options.seed);
   std::vector<CellCheck> checks(cells.size());
   std::mutex mutex;
   uint32_t done = 0;
   tbb::parallel_for(size_t{0}, cells.size(), [&](size_t i) {
-    checks[i] = check_cell(file, cells[i], options, rays, limit_m);
+    checks[i] = check_cell(city, cells[i], options);
     const std::lock_guard lock(mutex);
     ++done;
     if (progress) progress(done, static_cast<uint32_t>(cells.size()));
@@ -150,9 +182,9 @@ VerifyReport verify(const PvsFile& file, const VerifyOptions& options,
   VerifyReport report = add_up(checks);
   add_certified(file, cells, report);
   report.verdicts = verdicts(cells, checks);
-  report.convergence = {{options.rays_per_cell, report.overestimate_objects, report.overestimate_buildings,
-                         report.overestimate_triangles}};
-  report.narrow_gap_limit_m = limit_m;
+  report.convergence = convergence(checks);
+  report.narrow_gap_limit_m = city.narrow_gap_limit_m;
+  report.times.set_up_s = set_up_s, report.times.total_s += set_up_s;
   report.elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   report.rays_per_second = ratio(static_cast<double>(report.rays), report.elapsed_s);
   return report;

@@ -42,6 +42,16 @@ struct Convergence {
   double overestimate_objects = 0, overestimate_buildings = 0, overestimate_triangles = 0;
 };
 
+/// Where the time went: seconds, added up over threads.
+struct VerifyTimes {
+  double set_up_s = 0;      ///< the ray tracer's hierarchy and what else all cells share; by one thread
+  double eyes_s = 0;        ///< where a viewer can be
+  double directions_s = 0;  ///< which rays to shoot
+  double tracing_s = 0;     ///< Embree
+  double settling_s = 0;    ///< exact arithmetic, narrow gaps
+  double total_s = 0;       ///< of all that and the rest: keeping the books
+};
+
 struct VerifyReport {
   uint32_t cells_checked = 0, cells_without_eye = 0;
   uint64_t rays = 0, hits = 0;
@@ -73,14 +83,16 @@ struct VerifyReport {
   std::vector<CellVerdict> verdicts;     ///< by ascending cell
   std::vector<Convergence> convergence;  ///< by growing rays_per_cell; the last is of all rays
   double elapsed_s = 0, rays_per_second = 0;
+  VerifyTimes times;
   /// A check that shot no ray has not passed. Narrow gaps do not count.
   bool passed() const { return rays > 0 && false_invisible_objects == 0 && false_invisible_triangles == 0; }
 };
 
 /// Eye points are taken where a viewer can be: in navigable space, or within one seed of it with nothing in
-/// between. Half of the rays go all over the sphere, half at what the row does not draw; solid angles are
-/// estimated from the first half. Deterministic for a seed, whatever the number of threads. `progress` is
-/// called from one thread at a time. \throw Error(bad_input) when the scene has no triangle.
+/// between. A quarter of the rays go all over the sphere, from which solid angles are estimated; the others
+/// at what the row does not draw, at what no ray has met, and past the borders of what was met. Deterministic
+/// for a seed, whatever the number of threads. `progress` is called from one thread at a time. \throw
+/// Error(bad_input) when the scene has no triangle.
 VerifyReport verify(const PvsFile& file, const VerifyOptions& options,
                     const std::function<void(uint32_t done, uint32_t total)>& progress = {});
 

@@ -1,6 +1,7 @@
 #include "scene/ray_scene.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -42,6 +43,43 @@ TEST(RayScene, AgreesWithExactArithmeticOverAllTriangles) {
   }
   EXPECT_GT(met, 1000u);
   EXPECT_LT(met, directions.size());
+}
+
+TEST(RayScene, RaysWithAnEyeEachMeetWhatTheyMeetFromOneEye) {
+  const Scene scene = Street::scene();
+  const RayScene small(scene), fast(scene, RaySpeed::fast);
+  Random random(4);
+  const auto directions = sphere_directions(1003, random);
+  std::vector<Ray> rays;
+  std::vector<Hit> expected;
+  for (const glm::vec3& direction : directions) {
+    const glm::vec3 eye{random.unit(), random.unit(), 1 + random.unit()};
+    rays.push_back({eye, direction});
+    small.first_hits(eye, {&direction, 1}, {&expected.emplace_back(), 1});
+  }
+  std::vector<Hit> hits(rays.size());
+  const auto expect_same = [&] {
+    size_t same = 0;
+    for (size_t i = 0; i < hits.size(); ++i) same += hits[i].triangle == expected[i].triangle;
+    EXPECT_GE(same, hits.size() - 2) << "but for ties";
+  };
+  for (const RayOrder order : {RayOrder::ordered, RayOrder::scattered}) {
+    small.first_hits(rays, hits, order);
+    expect_same();
+    fast.first_hits(rays, hits, order);
+    expect_same();
+  }
+}
+
+// Embree would hold all of TBB to the one thread that builds the hierarchy.
+TEST(RayScene, LeavesTheNumberOfThreadsAlone) {
+  const auto threads = [] {
+    return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  };
+  const size_t before = threads();
+  const Scene scene = Street::scene();
+  const RayScene rays(scene);
+  EXPECT_EQ(threads(), before);
 }
 
 TEST(RayScene, TrianglesNearHoldAllThatTheRayMeets) {

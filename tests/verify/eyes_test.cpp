@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <set>
+
 #include "tests/verify/toy_city.h"
 
 namespace veduta {
@@ -29,6 +32,39 @@ TEST(Eyes, StartWithCornersEdgesAndFacesAndFillTheInside) {
       EXPECT_EQ(on_faces, i < 8 ? 3 : i < 20 ? 2 : 1) << "eye " << i;
     }
   }
+}
+
+TEST(Eyes, ProtocolHasAThousandOnEachFace) {
+  const Place place;
+  const Box cell = Street::cell();
+  const auto eyes = eye_points(cell, protocol_eyes, place.free, place.rays, Random(1));
+  ASSERT_EQ(eyes.size(), 6024u);
+  int on[6] = {}, corners = 0, edges = 0;
+  std::set<std::array<float, 3>> different;
+  for (const glm::vec3& eye : eyes) {
+    EXPECT_TRUE(cell.contains(eye));
+    different.insert({eye.x, eye.y, eye.z});
+    int faces = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool low = eye[axis] == cell.lower[axis], high = eye[axis] == cell.upper[axis];
+      on[2 * axis] += low, on[2 * axis + 1] += high, faces += low || high;
+    }
+    EXPECT_GT(faces, 0);
+    corners += faces == 3, edges += faces == 2;
+  }
+  EXPECT_EQ(different.size(), 6024u);
+  EXPECT_EQ(corners, 8);
+  EXPECT_EQ(edges, 12);
+  for (const int count : on) EXPECT_GE(count, 1004 + 4);
+  EXPECT_EQ(eye_points(cell, 7000, place.free, place.rays, Random(1)).size(), 7000u);
+}
+
+TEST(Eyes, OfFacesInASolidAreReplacedInside) {
+  const Place place;
+  const Box cut{{8, 0, 1.45f}, {10.5f, 4, 1.95f}};  // one face in the wall
+  const auto eyes = eye_points(cut, protocol_eyes, place.free, place.rays, Random(2));
+  ASSERT_EQ(eyes.size(), 6024u);
+  for (const glm::vec3& eye : eyes) EXPECT_LT(eye.x, 10);
 }
 
 // The near side of a wall is reached from free space though its leaf is not free; the inside of the wall is

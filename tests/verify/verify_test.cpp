@@ -251,8 +251,38 @@ PvsFile nine_cells() {
 }
 
 std::string without_times(VerifyReport report, const PvsFile& file) {
-  report.elapsed_s = report.rays_per_second = 0;
+  report.elapsed_s = report.rays_per_second = 0, report.times = {};
   return describe_json(report, file);
+}
+
+// The hut is listed, so no ray is aimed at it as at something that is not drawn; through the slit of 1 cm it
+// covers some 1e-5 of the sphere.
+TEST(Verify, FewRaysFindTheirWayIntoASlit) {
+  PvsFile file = slit_wall({0.01f});
+  PvsRow row = Street::row({Street::ground, Street::wall, Street::hut, Street::tower, 4});
+  file = toy::make_file(file.city.scene, file.city.cells, {row});
+  const VerifyReport report =
+      verify(file, {.cells = 1, .rays_per_cell = 20'000, .eyes_per_cell = 8, .seed = 7});
+  EXPECT_TRUE(report.passed());
+  EXPECT_EQ(report.mean_seen_objects, 5);
+}
+
+TEST(Verify, OverestimateFallsAsRaysDouble) {
+  const PvsFile file = nine_cells();
+  const VerifyReport report = verify(file, few);
+  ASSERT_EQ(report.convergence.size(), 4u);
+  for (size_t i = 0; i < 4; ++i) {
+    const Convergence& part = report.convergence[i];
+    EXPECT_EQ(part.rays_per_cell, few.rays_per_cell >> (3 - i));
+    if (i == 0) continue;
+    EXPECT_LE(part.overestimate_objects, report.convergence[i - 1].overestimate_objects);
+    EXPECT_LE(part.overestimate_buildings, report.convergence[i - 1].overestimate_buildings);
+    EXPECT_LE(part.overestimate_triangles, report.convergence[i - 1].overestimate_triangles);
+  }
+  EXPECT_LT(report.convergence[3].overestimate_triangles, report.convergence[0].overestimate_triangles);
+  EXPECT_EQ(report.convergence[3].overestimate_objects, report.overestimate_objects);
+  EXPECT_EQ(report.convergence[3].overestimate_buildings, report.overestimate_buildings);
+  EXPECT_EQ(report.convergence[3].overestimate_triangles, report.overestimate_triangles);
 }
 
 TEST(Verify, SameReportForAnyNumberOfThreads) {
