@@ -49,29 +49,8 @@ cities() {
 
 growth() {
   local -A blocks=([1k]='6, 14' [6k]='16, 32' [24k]='32, 64' [100k]='65, 128') # of twelve houses each
-  printf '%s\n' '<Rules name="box">' '<Building groundHeight="3.6" floorHeight="3"/>' '<Roof type="flat"/>' \
-    '<Floor><Plain><Wall/></Plain></Floor>' '</Rules>' >"$out/box.xml"
   for size in ${SIZES:-1k 6k 24k 100k}; do
-    cat >"$out/plan_$size.toml" <<TOML
-[streets]
-blocks = [${blocks[$size]}]
-buildings_per_block = 12
-lot = [24.0, 18.5]
-street = 9.0
-avenue = 18.0
-avenue_every = 4
-variants = 8
-[[rules]]
-file = "box.xml"
-weight = 2
-floors = [2, 5]
-depth = [10, 15]
-[[rules]]
-file = "box.xml"
-floors = [2, 6]
-depth = [12, 14]
-gap = 3
-TOML
+    sed "s/^blocks = .*/blocks = [${blocks[$size]}]/; s|\"rules/|\"$PWD/configs/city/rules/|" configs/city/plain_houses.toml >"$out/plan_$size.toml"
     "$bin/veduta" city "$out/plan_$size.toml" -o "$out/houses_$size.city.json" >/dev/null 2>&1
     config "$out/houses_$size.city.json" 0.25 5.0 "$(middle "$out/houses_$size.city.json")" >"$out/houses_$size.toml"
     bench "houses" "houses_$size"

@@ -31,6 +31,7 @@ class Child {
   Child& operator=(const Child&) = delete;
 
   int output() const { return output_; }  ///< to poll for reading
+  pid_t process() const { return pid_; }  ///< -1 once it was reaped
   /// A child that is gone already does not make this fail: its death is seen by read().
   void send(Verb verb, const std::string& json);
   /// Takes what is there (after poll said so). \return false when the stream has ended.

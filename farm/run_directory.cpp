@@ -139,9 +139,12 @@ std::optional<std::string> read_text_file(const fs::path& file) {
   std::error_code code;
   if (!fs::exists(file, code) && !code) return std::nullopt;
   std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  if (!in || !(text << in.rdbuf())) throw Error(ExitStatus::input_output, file.string() + ": cannot be read");
-  return text.str();
+  std::string text;
+  char block[1 << 16];
+  while (in.read(block, sizeof block) || in.gcount() > 0)
+    text.append(block, static_cast<size_t>(in.gcount()));
+  if (!in.eof()) throw Error(ExitStatus::input_output, file.string() + ": cannot be read");
+  return text;
 }
 
 std::string last_line(const fs::path& file) {
