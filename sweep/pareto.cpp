@@ -11,6 +11,9 @@
 namespace veduta {
 namespace {
 
+/// Times of the same work differ by so much from run to run.
+constexpr double time_noise = 0.05;
+
 /// An over-estimate of 0 says that nothing was seen: no figure.
 bool can_be_chosen(const SweepPoint& point, double overestimate) {
   return point.failed.empty() && point.false_invisible_objects == 0 && point.false_invisible_triangles == 0 &&
@@ -58,11 +61,16 @@ std::vector<size_t> pareto_front(const SweepReport& report, double SweepPoint::*
   std::vector<size_t> order;
   for (size_t i = 0; i < points.size(); ++i)
     if (can_be_chosen(points[i], points[i].*overestimate)) order.push_back(i);
-  const auto rank = [&](size_t i) { return std::pair(judged_ms(points[i]), points[i].*overestimate); };
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return rank(a) < rank(b); });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t a, size_t b) { return judged_ms(points[a]) < judged_ms(points[b]); });
+  const auto beats = [&](const SweepPoint& other, const SweepPoint& point) {
+    const double ms = judged_ms(point), bound = point.*overestimate;
+    return (other.*overestimate < bound && judged_ms(other) <= ms) ||
+           (other.*overestimate <= bound && judged_ms(other) < (1 - time_noise) * ms);
+  };
   std::vector<size_t> front;
   for (const size_t i : order)
-    if (front.empty() || rank(i).second < rank(front.back()).second || rank(i) == rank(front.back()))
+    if (std::none_of(order.begin(), order.end(), [&](size_t j) { return beats(points[j], points[i]); }))
       front.push_back(i);
   return front;
 }

@@ -65,9 +65,9 @@ std::string to_json(const SweepReport& report);
 /// \throw Error(bad_input) naming `name` for what is no sweep, is of another version or is damaged.
 SweepReport sweep_from_json(const std::string& text, const std::string& name);
 
-/// Numbers of the points that no other point beats in one and equals or beats in the other, of `judged_ms`
-/// and the given over-estimate, fastest first. Points that failed, that saw nothing (their over-estimate is
-/// 0) or that have false invisible triangles are never among them.
+/// Numbers of the points worth having, by `judged_ms` and the given over-estimate, fastest first: no other is
+/// tighter and as fast, or as tight and faster by more than times differ from run to run (5 %). Points that
+/// failed or have false invisible triangles are never among them.
 std::vector<size_t> pareto_front(const SweepReport& report, double SweepPoint::*overestimate);
 
 /// The fastest point without false invisible triangles whose over-estimate in buildings is at most the given

@@ -53,6 +53,13 @@ TEST(ParetoFront, KnownAnswer) {
   EXPECT_TRUE(pareto_front({}, buildings).empty());
 }
 
+TEST(ParetoFront, EqualRowsAreNotToldApartByNoise) {
+  SweepReport report;
+  for (const auto& [ms, over] : {std::pair(100.0, 1.5), {104.0, 1.5}, {106.0, 1.5}, {103.0, 1.6}})
+    report.points.push_back(test::made_up_point({}, ms, over));
+  EXPECT_EQ(pareto_front(report, buildings), (std::vector<size_t>{0, 1}));
+}
+
 TEST(ParetoFront, IsWhatNoOtherBeats) {
   std::mt19937 random(11);
   for (int round = 0; round < 200; ++round) {
