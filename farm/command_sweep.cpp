@@ -107,7 +107,7 @@ class Sweep {
   bool done(const GridPoint& point) const {
     const std::string key = key_of(point);
     return std::any_of(report_.points.begin(), report_.points.end(),
-                       [&](const SweepPoint& before) { return before.key == key; });
+                       [&](const SweepPoint& before) { return before.key == key && before.failed.empty(); });
   }
 
   SweepPoint measure(const RunPaths& run, const GridPoint& grid, double& prepare_s) {
@@ -131,6 +131,8 @@ class Sweep {
   void keep(SweepPoint point) {
     progress_.clear();
     progress_.note(line_of(point));
+    // One that failed before is tried again.
+    std::erase_if(report_.points, [&](const SweepPoint& before) { return before.key == point.key; });
     report_.points.push_back(std::move(point));
     write_file_atomically(out_ / "sweep.json", to_json(report_));
     write_file_atomically(out_ / "sweep.html", sweep_page(report_));
