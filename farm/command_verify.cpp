@@ -8,6 +8,7 @@
 #include "farm/commands.h"
 #include "farm/progress.h"
 #include "farm/run_directory.h"
+#include "farm/stored_form.h"
 #include "scene/error.h"
 #include "verify/verify.h"
 
@@ -17,6 +18,7 @@ namespace {
 struct Options {
   std::filesystem::path file, json;
   VerifyOptions verify;
+  bool store = false;
 };
 
 int run_verify(const Options& options, Verbosity verbosity) {
@@ -28,6 +30,7 @@ int run_verify(const Options& options, Verbosity verbosity) {
   progress.clear();
   std::cout << describe(report, file) << std::flush;
   if (!options.json.empty()) write_file_atomically(options.json, describe_json(report, file));
+  if (options.store) store_verification(options.file, file, stored_form(report, options.verify));
   return static_cast<int>(report.passed() ? ExitStatus::done : ExitStatus::check_failed);
 }
 
@@ -48,6 +51,7 @@ void add_verify(CLI::App& app, CommandLine& line) {
           "Eye points a cell: corners, edges, faces, inside; with 6024 or more, 1000 on each face [64]")
       ->check(CLI::Range(1u, 1000000u));
   command->add_option("--seed", options->verify.seed, "Of the sampling [1]");
+  command->add_flag("--store", options->store, "Also keep the result in FILE, in place of an earlier one");
   command->add_option("--json", options->json, "Also write the report as JSON to this file");
   command->callback(
       [options, &line] { line.run = [options, &line] { return run_verify(*options, line.verbosity); }; });

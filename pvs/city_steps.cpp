@@ -54,12 +54,7 @@ void complete_city(const std::filesystem::path& scene_file, const std::filesyste
   write_atomically(
       file,
       [&](const std::filesystem::path& temporary) {
-        std::error_code error;
-        std::filesystem::copy_file(scene_file, temporary, std::filesystem::copy_options::overwrite_existing,
-                                   error);
-        if (error)
-          throw Error(ExitStatus::input_output, fmt::format("{}: cannot be written: {}; is the disk full?",
-                                                            temporary.string(), error.message()));
+        hdf5::copy_output(scene_file, temporary);
         Output output(temporary, Output::Start::go_on);
         write_place_columns(output, places, digests);
         root.content_digest = content_digest(places, root.header.conservative, digests);

@@ -50,7 +50,8 @@ ColumnReader::ColumnReader(const Input& input, const Column& column) : input_(in
   stored_bytes_ = H5Dget_storage_size(dataset_.get());
   const uint64_t element = element_bytes(column.element, text_bytes);
   const uint64_t most = std::min(stored_bytes_, input.file_bytes()) * deflate_ratio_limit;
-  if (columns_ > most / element + 6 || (rows_ > 0 && columns_ > 0 && rows_ > most / (element * columns_)))
+  if ((column.columns == 0 && columns_ > most / element + 6) ||
+      (rows_ > 0 && columns_ > 0 && rows_ > most / (element * columns_)))
     input.fail(column.path,
                fmt::format("damaged: claims {} x {} values, more than the file can hold", rows_, columns_));
   row_bytes_ = element * columns_;

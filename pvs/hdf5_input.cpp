@@ -46,6 +46,12 @@ void Input::fail(const std::string& place, const std::string& what) const {
   throw Error(ExitStatus::bad_input, fmt::format("{}: {}: {}", path_.string(), place, what));
 }
 
+bool Input::has(const char* path) const {
+  const htri_t found = H5Lexists(file_.get(), path, H5P_DEFAULT);
+  if (found < 0) fail(path, "damaged");
+  return found > 0;
+}
+
 Handle Input::open(const char* path) const {
   const std::string whole = path;
   for (size_t slash = whole.find('/', 1); whole != "/"; slash = whole.find('/', slash + 1)) {
@@ -101,6 +107,18 @@ std::string Input::text(const char* object, const char* name) const {
 uint32_t Input::number(const char* object, const char* name) const {
   uint32_t out = 0;
   attribute(object, name, H5T_STD_U32LE, 1, &out);
+  return out;
+}
+
+uint64_t Input::large_number(const char* object, const char* name) const {
+  uint64_t out = 0;
+  attribute(object, name, H5T_STD_U64LE, 1, &out);
+  return out;
+}
+
+double Input::real(const char* object, const char* name) const {
+  double out = 0;
+  attribute(object, name, H5T_IEEE_F64LE, 1, &out);
   return out;
 }
 

@@ -21,8 +21,12 @@ class Input {
   /// \throw Error(bad_input) when it is missing or no HDF5 file; Error(input_output) when it may not be read.
   explicit Input(const std::filesystem::path& file);
 
+  /// Is there anything under this name?
+  bool has(const char* path) const;
   std::string text(const char* object, const char* name) const;
   uint32_t number(const char* object, const char* name) const;
+  uint64_t large_number(const char* object, const char* name) const;
+  double real(const char* object, const char* name) const;
   uint8_t flag(const char* object, const char* name) const;
   std::vector<float> floats(const char* object, const char* name, size_t count) const;
   std::array<double, 3> doubles(const char* object, const char* name) const;

@@ -24,6 +24,14 @@ uint64_t free_bytes(const std::filesystem::path& file) {
 
 }  // namespace
 
+void copy_output(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::error_code error;
+  std::filesystem::copy_file(from, to, std::filesystem::copy_options::overwrite_existing, error);
+  if (error)
+    throw Error(ExitStatus::input_output,
+                fmt::format("{}: cannot be written: {}; is the disk full?", to.string(), error.message()));
+}
+
 Output::Output(const std::filesystem::path& file, Start start) : path_(file) {
   prepare_library();
   require_space(0);
@@ -62,7 +70,8 @@ void Output::require_space(uint64_t bytes) const {
 
 void Output::group(const char* path) {
   Handle create(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
-  if (H5Pset_obj_track_times(create.get(), false) < 0) fail(path, "HDF5 refuses its settings");
+  if (H5Pset_obj_track_times(create.get(), false) < 0 || H5Pset_attr_phase_change(create.get(), 64, 32) < 0)
+    fail(path, "HDF5 refuses its settings");
   Handle made(H5Gcreate2(file_.get(), path, H5P_DEFAULT, create.get(), H5P_DEFAULT), H5Gclose);
   if (!made.valid() || !made.close()) fail(path, "cannot write the group");
 }
@@ -97,6 +106,16 @@ void Output::attribute(const char* object, const char* name, uint8_t value) {
   raw_attribute(opened.get(), object, name, H5T_STD_U8LE, &value, 1);
 }
 
+void Output::attribute(const char* object, const char* name, uint64_t value) {
+  Handle opened(H5Oopen(file_.get(), object, H5P_DEFAULT), H5Oclose);
+  raw_attribute(opened.get(), object, name, H5T_STD_U64LE, &value, 1);
+}
+
+void Output::attribute(const char* object, const char* name, double value) {
+  Handle opened(H5Oopen(file_.get(), object, H5P_DEFAULT), H5Oclose);
+  raw_attribute(opened.get(), object, name, H5T_IEEE_F64LE, &value, 1);
+}
+
 void Output::attribute(const char* object, const char* name, const std::vector<float>& values) {
   Handle opened(H5Oopen(file_.get(), object, H5P_DEFAULT), H5Oclose);
   raw_attribute(opened.get(), object, name, H5T_IEEE_F32LE, values.data(), values.size());
@@ -105,6 +124,10 @@ void Output::attribute(const char* object, const char* name, const std::vector<f
 void Output::attribute(const char* object, const char* name, const std::array<double, 3>& values) {
   Handle opened(H5Oopen(file_.get(), object, H5P_DEFAULT), H5Oclose);
   raw_attribute(opened.get(), object, name, H5T_IEEE_F64LE, values.data(), values.size());
+}
+
+void Output::remove(const char* path) {
+  if (H5Ldelete(file_.get(), path, H5P_DEFAULT) < 0) fail(path, "cannot be removed");
 }
 
 void Output::close() {

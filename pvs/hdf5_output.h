@@ -13,6 +13,9 @@
 
 namespace veduta::hdf5 {
 
+/// Copies a file that an Output closed, for one that goes on with it. \throw Error(input_output).
+void copy_output(const std::filesystem::path& from, const std::filesystem::path& to);
+
 /// A file to be written. Readable by every HDF5 from 1.8 on; the bytes depend on the content alone (no time
 /// stamps).
 class Output {
@@ -25,8 +28,13 @@ class Output {
   void attribute(const char* object, const char* name, const std::string& text);
   void attribute(const char* object, const char* name, uint32_t value);
   void attribute(const char* object, const char* name, uint8_t value);
+  void attribute(const char* object, const char* name, uint64_t value);
+  void attribute(const char* object, const char* name, double value);
   void attribute(const char* object, const char* name, const std::vector<float>& values);
   void attribute(const char* object, const char* name, const std::array<double, 3>& values);
+
+  /// Takes a group or a dataset out; what is written after it may take its room.
+  void remove(const char* path);
 
   /// Closes the file. Without it, the destructor closes and nobody learns whether that worked.
   void close();

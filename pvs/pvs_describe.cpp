@@ -99,6 +99,44 @@ double per_cell(uint64_t bytes, const Summary& s) {
   return s.cells == 0 ? 0 : static_cast<double>(bytes) / static_cast<double>(s.cells);
 }
 
+nlohmann::ordered_json verification_json(const std::optional<Verification>& v) {
+  if (!v) return nullptr;
+  nlohmann::ordered_json out = {
+      {"passed", v->passed()},
+      {"when", v->when},
+      {"program", v->program},
+      {"seed", v->seed},
+      {"rays_per_cell", v->rays_per_cell},
+      {"eyes_per_cell", v->eyes_per_cell},
+      {"cells_checked", v->cells.size()},
+      {"cells_without_eye", v->cells_without_eye()},
+      {"rays", v->rays()},
+      {"false_invisible_objects", v->false_invisible_objects()},
+      {"false_invisible_triangles", v->false_invisible_triangles()},
+      {"false_invisible_solid_angle_mean", v->false_invisible_solid_angle_mean},
+      {"false_invisible_solid_angle_worst", v->false_invisible_solid_angle_worst},
+      {"narrow_gap_limit_m", v->narrow_gap_limit_m},
+      {"narrow_gap_objects", v->narrow_gap_objects()},
+      {"narrow_gap_triangles", v->narrow_gap_triangles},
+      {"overestimate_objects", v->overestimate_objects},
+      {"overestimate_buildings", v->overestimate_buildings},
+      {"overestimate_triangles", v->overestimate_triangles},
+      {"tightest_triangles", v->tightest_triangles},
+      {"examples", nlohmann::ordered_json::array()},
+  };
+  const auto array = [](const glm::vec3& p) { return std::array<float, 3>{p.x, p.y, p.z}; };
+  for (const Witness& w : v->witnesses)
+    out["examples"].push_back({{"cell", w.cell},
+                               {"object", w.object},
+                               {"triangle", w.triangle},
+                               {"eye_m", array(w.eye)},
+                               {"direction", array(w.direction)},
+                               {"hit_m", array(w.hit)},
+                               {"gap_m", w.gap_m},
+                               {"gap_from_eye_m", w.gap_from_eye_m}});
+  return out;
+}
+
 }  // namespace
 
 std::string describe(const PvsFile& file, const std::filesystem::path& path) {
@@ -120,6 +158,7 @@ std::string describe(const PvsFile& file, const std::filesystem::path& path) {
   out += fmt::format("  visible    {:.1f} objects a cell in the mean, {} median, {} most, of {}\n",
                      s.mean_visible, s.median_visible, s.max_visible, s.objects);
   out += overestimate_line(s);
+  out += file.verification ? describe_verification(*file.verification, file) : "  verified   no\n";
   out += fmt::format("  size       {} bytes; the PVS {} bytes, {:.1f} bytes a cell\n", s.file_bytes,
                      s.pvs_bytes, per_cell(s.pvs_bytes, s));
   out += fmt::format("  renderer   {}\n", file.header.renderer.empty() ? "not known" : file.header.renderer);
@@ -159,6 +198,7 @@ std::string describe_json(const PvsFile& file, const std::filesystem::path& path
       {"file_bytes", s.file_bytes},
       {"pvs_bytes", s.pvs_bytes},
       {"pvs_bytes_per_cell", per_cell(s.pvs_bytes, s)},
+      {"verification", verification_json(file.verification)},
       {"renderer", file.header.renderer},
       {"fingerprint", file.header.fingerprint},
       {"content_digest", file.content_digest},

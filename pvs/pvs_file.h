@@ -7,11 +7,13 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "pvs/cell_grid.h"
 #include "pvs/city.h"
+#include "pvs/verification.h"
 #include "pvs/visibility.h"
 
 namespace veduta {
@@ -39,6 +41,9 @@ struct PvsFile {
   std::vector<PvsEntry> entries;        ///< [K]
   std::string
       content_digest;  ///< 32 hex digits over the logical content; not over bake_us, config and renderer
+
+  /// What a verification of this content found; none: nobody looked, or nobody stored it.
+  std::optional<Verification> verification;
 
   /// The entries of a cell's row.
   struct Span {
@@ -75,9 +80,10 @@ struct BakedCell {
 };
 using CellSource = std::function<BakedCell(uint32_t cell)>;
 
-/// Writes a complete file to a temporary name beside `file`, reads it back, compares the digests, syncs and
-/// renames. Equal rows are stored once. `header.complete` is set from the statuses seen. \return the content
-/// digest. \throw Error(input_output) when the disk is full or not writable; nothing is left behind.
+/// Writes a complete file, as yet without a verification, to a temporary name beside `file`, reads it back,
+/// compares the digests, syncs and renames. Equal rows are stored once. `header.complete` is set from the
+/// statuses seen. \return the content digest. \throw Error(input_output) when the disk is full or not
+/// writable; nothing is left behind.
 std::string write_pvs(const std::filesystem::path& file, const City& city, const PvsHeader& header,
                       const CellSource& cells);
 

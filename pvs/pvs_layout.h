@@ -95,13 +95,42 @@ inline constexpr Column pvs_index{"/pvs/index", Element::i8, 3,
                                   "z, or x > 0 and its first x-slice <= x, or "
                                   "x < 0 and its last x-slice >= -x+1, or the same for y"};
 
+inline constexpr Column verified_cell{"/verification/cells/cell", Element::u32, 1,
+                                      "[v] view-cells that were checked, ascending"};
+inline constexpr Column verified_rays{"/verification/cells/rays", Element::u64, 1,
+                                      "[v] rays shot; 0 where no viewer can be in the cell"};
+inline constexpr Column verified_objects{"/verification/cells/objects", Element::u64, 2,
+                                         "[v,2] objects that the row lists, objects that rays met"};
+inline constexpr Column verified_triangles{"/verification/cells/triangles", Element::u64, 2,
+                                           "[v,2] triangles that the row draws, triangles that rays met"};
+inline constexpr Column verified_false{
+    "/verification/cells/false_invisible", Element::u64, 3,
+    "[v,3] objects and triangles that rays met and the row does not draw; objects that were seen through "
+    "narrow gaps alone, which are none of these"};
+inline constexpr Column verified_solid_angle{
+    "/verification/cells/solid_angle", Element::f32, 1,
+    "[v] share of directions in which the first thing seen is false invisible"};
+inline constexpr Column witness_cell{"/verification/examples/cell", Element::u32, 1,
+                                     "[w] cell of rays that met what the row does not draw"};
+inline constexpr Column witness_object{"/verification/examples/object", Element::u32, 1, "[w] object met"};
+inline constexpr Column witness_triangle{"/verification/examples/triangle", Element::u64, 1,
+                                         "[w] triangle met"};
+inline constexpr Column witness_ray{
+    "/verification/examples/ray", Element::f32, 9,
+    "[w,9] x, y, z of the eye, m, of the direction, of length 1, and of the point met, m"};
+inline constexpr Column witness_gap{"/verification/examples/gap", Element::f32, 2,
+                                    "[w,2] width of the narrow gap that it was seen through and its distance "
+                                    "from the eye, m; 0, 0: false invisible"};
+
 inline constexpr const Column* all[] = {
-    &vertices,      &triangles,        &material,      &triangle_slice, &object_name,
-    &object_kind,   &object_bounds,    &object_begin,  &object_slices,  &part_name,
-    &part_object,   &part_begin,       &part_end,      &cell_bounds,    &free_roots,
-    &free_states,   &free_first_child, &surface_roots, &surface_states, &surface_first_child,
-    &ground_height, &cell_row,         &cell_bake_us,  &cell_status,    &cell_overestimate,
-    &pvs_begin,     &pvs_object,       &pvs_index};
+    &vertices,         &triangles,          &material,       &triangle_slice,       &object_name,
+    &object_kind,      &object_bounds,      &object_begin,   &object_slices,        &part_name,
+    &part_object,      &part_begin,         &part_end,       &cell_bounds,          &free_roots,
+    &free_states,      &free_first_child,   &surface_roots,  &surface_states,       &surface_first_child,
+    &ground_height,    &cell_row,           &cell_bake_us,   &cell_status,          &cell_overestimate,
+    &pvs_begin,        &pvs_object,         &pvs_index,      &verified_cell,        &verified_rays,
+    &verified_objects, &verified_triangles, &verified_false, &verified_solid_angle, &witness_cell,
+    &witness_object,   &witness_triangle,   &witness_ray,    &witness_gap};
 
 /// A forest of octrees in the file: its group, which has its lattice as attributes, and its datasets.
 struct ForestColumns {

@@ -4,6 +4,7 @@
 
 #include "pvs/city_columns.h"
 #include "pvs/pvs_check.h"
+#include "pvs/verification_columns.h"
 #include "scene/error.h"
 
 namespace veduta {
@@ -27,14 +28,17 @@ void read_entries(const Input& input, std::vector<PvsEntry>& entries, ColumnDige
   });
 }
 
+void refuse(const Input& input, const std::optional<std::string>& defect) {
+  if (!defect) return;
+  const size_t colon = defect->find(": ");
+  input.fail(defect->substr(0, colon), defect->substr(colon + 2));
+}
+
 /// The city with its root, every relation and the content digest checked.
 void finish_city(const Input& input, const RootAttributes& root, const ColumnDigests& digests, City& city) {
   city.scene.crs = root.crs;
   city.scene.origin = root.origin;
-  if (const auto defect = find_defect(city)) {
-    const size_t colon = defect->find(": ");
-    input.fail(defect->substr(0, colon), defect->substr(colon + 2));
-  }
+  refuse(input, find_defect(city));
   if (content_digest(city, root.header.conservative, digests) != root.content_digest)
     input.fail("/@content_digest", "does not hold; get the file again, or bake again");
 }
@@ -57,9 +61,10 @@ PvsFile read_pvs(const std::filesystem::path& path) {
   digests[column::pvs_begin.path] = ColumnReader(input, column::pvs_begin).read_into(file.row_begin);
   read_entries(input, file.entries, digests);
   finish_city(input, root, digests, file.city);
-  if (const auto defect = find_row_defect(file)) {
-    const size_t colon = defect->find(": ");
-    input.fail(defect->substr(0, colon), defect->substr(colon + 2));
+  refuse(input, find_row_defect(file));
+  if (input.has(verification_group)) {
+    file.verification = read_verification(input, root.content_digest);
+    refuse(input, find_defect(*file.verification, file.city));
   }
   file.index_cells();
   return file;

@@ -85,6 +85,9 @@ done
 
 (cd "$work" && "$bin/veduta" verify reference/city.pvs.h5 --cells 16 --rays 100000 --json verify.json 2>/dev/null) || fail "verification"
 [[ -s $work/verify.json ]] || fail "no verify.json beside the run"
+"$bin/veduta" verify "$work/reference/city.pvs.h5" --cells 4 --rays 10000 --store >/dev/null 2>&1 || fail "verification, stored"
+"$bin/veduta" info "$work/reference/city.pvs.h5" | grep -q 'passed: 4 of ' || fail "info does not know of the verification"
+[[ $(digest "$work/reference") == "$reference" ]] || fail "a verification changed the content digest"
 "$bin/veduta-view" "$work/reference/city.pvs.h5" --headless --gpu software --stereo side-by-side --frames 3 --size 640x180 --out "$work/on" >/dev/null
 "$bin/veduta-view" "$work/reference/city.pvs.h5" --headless --gpu software --stereo side-by-side --frames 3 --size 640x180 --out "$work/off" --pvs off >/dev/null
 for frame in "$work"/on/*.png; do cmp "$frame" "$work/off/$(basename "$frame")" || fail "a picture differs without the PVS"; done

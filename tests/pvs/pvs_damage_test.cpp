@@ -6,7 +6,7 @@
 
 #include "pvs/pvs_file.h"
 #include "scene/error.h"
-#include "tests/pvs/small_city.h"
+#include "tests/pvs/small_verification.h"
 
 #ifdef __SANITIZE_ADDRESS__
 /// HDF5 1.10 leaks when it refuses a file. Our own leaks are still found.
@@ -43,6 +43,7 @@ bool reads_as(const std::filesystem::path& file, const std::string& bytes, const
     EXPECT_EQ(got.header.fingerprint, written.header.fingerprint);
     EXPECT_EQ(got.header.complete, written.header.complete);
     EXPECT_EQ(got.header.conservative, written.header.conservative);
+    EXPECT_EQ(got.verification, written.verification);
     return true;
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), ExitStatus::bad_input) << error.what();
@@ -55,13 +56,19 @@ struct Written {
   TemporaryDirectory directory;
   std::string bytes;
   std::vector<size_t> used;  ///< bytes that are not zero: most zeros are room that HDF5 keeps for more
+  std::vector<size_t> of_verification;  ///< and those of them that storing it wrote
   PvsFile content;
   Written() {
     write_pvs(directory / "a.h5", test::small_city(), test::small_header(), test::small_row);
+    const std::string before = test::read_bytes(directory / "a.h5");
+    store_verification(directory / "a.h5", read_pvs(directory / "a.h5"), test::small_verification());
     bytes = test::read_bytes(directory / "a.h5");
     content = read_pvs(directory / "a.h5");
     for (size_t i = 0; i < bytes.size(); ++i)
-      if (bytes[i] != 0) used.push_back(i);
+      if (bytes[i] != 0) {
+        used.push_back(i);
+        if (i >= before.size() || bytes[i] != before[i]) of_verification.push_back(i);
+      }
   }
   template <typename Random>
   size_t any_used(Random& random) const {
@@ -82,6 +89,21 @@ TEST(PvsDamage, BitFlips) {
   }
   RecordProperty("refused", refused);
   EXPECT_GT(refused, 100);
+}
+
+TEST(PvsDamage, BitFlipsInAVerification) {
+  const Written written;
+  ASSERT_GT(written.of_verification.size(), 3000u);
+  std::mt19937 random(5);
+  int refused = 0;
+  for (int i = 0; i < 400 && !HasFailure(); ++i) {
+    const size_t byte = written.of_verification[random() % written.of_verification.size()];
+    SCOPED_TRACE("byte " + std::to_string(byte));
+    std::string bytes = written.bytes;
+    bytes[byte] = static_cast<char>(bytes[byte] ^ (1 << (random() % 8)));
+    refused += !reads_as(written.directory / "flipped.h5", bytes, written.content);
+  }
+  EXPECT_GT(refused, 200);
 }
 
 TEST(PvsDamage, RunsOfRubbish) {
