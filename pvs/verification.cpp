@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 
 #include "pvs/pvs_file.h"
-#include "pvs/verification_columns.h"
 
 namespace veduta {
 namespace {

@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace veduta {
 
+struct City;
 struct PvsFile;
 
 /// Of one cell that was checked. Counts are of the cell's row and of what rays met.
@@ -63,6 +65,9 @@ struct Verification {
 ///   written; Error(defect) when the verification does not fit the city.
 void store_verification(const std::filesystem::path& file, const PvsFile& checked,
                         const Verification& verification);
+
+/// What does not fit the city: "/verification/cells/cell: what".
+std::optional<std::string> find_defect(const Verification& verification, const City& city);
 
 /// Lines for people (`veduta info`).
 std::string describe_verification(const Verification& verification, const PvsFile& file);

@@ -1,7 +1,6 @@
-// The group /verification: written and read by hdf5, and checked.
+// The group /verification: written and read.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "pvs/hdf5_input.h"
@@ -18,8 +17,5 @@ void write_verification(hdf5::Output& output, const Verification& verification,
 
 /// Reads what that wrote; sums and digests are compared, its numbers not yet held against the city.
 Verification read_verification(const hdf5::Input& input, const std::string& content_digest);
-
-/// What does not fit the city: "/verification/cells/cell: what".
-std::optional<std::string> find_defect(const Verification& verification, const City& city);
 
 }  // namespace veduta

@@ -9,17 +9,6 @@
 namespace veduta {
 namespace {
 
-Image side_by_side(const Image& left, const Image& right) {
-  Image image{2 * left.width, left.height, {}};
-  image.rgb.reserve(2 * left.rgb.size());
-  const size_t stride = size_t{3} * left.width;
-  for (size_t row = 0; row < left.height; ++row)
-    for (const Image* half : {&left, &right})
-      image.rgb.insert(image.rgb.end(), half->rgb.begin() + static_cast<ptrdiff_t>(row * stride),
-                       half->rgb.begin() + static_cast<ptrdiff_t>((row + 1) * stride));
-  return image;
-}
-
 Image top_bottom(const Image& left, const Image& right) {
   Image image{left.width, 2 * left.height, left.rgb};
   image.rgb.insert(image.rgb.end(), right.rgb.begin(), right.rgb.end());
@@ -61,10 +50,21 @@ Image anaglyph(const Image& left, const Image& right) {
 
 }  // namespace
 
+Image beside(const Image& left, const Image& right) {
+  Image image{2 * left.width, left.height, {}};
+  image.rgb.reserve(2 * left.rgb.size());
+  const size_t stride = size_t{3} * left.width;
+  for (size_t row = 0; row < left.height; ++row)
+    for (const Image* half : {&left, &right})
+      image.rgb.insert(image.rgb.end(), half->rgb.begin() + static_cast<ptrdiff_t>(row * stride),
+                       half->rgb.begin() + static_cast<ptrdiff_t>((row + 1) * stride));
+  return image;
+}
+
 Image compose(StereoMode mode, const std::vector<Image>& pictures) {
   switch (mode) {
     case StereoMode::side_by_side:
-      return side_by_side(pictures[0], pictures[1]);
+      return beside(pictures[0], pictures[1]);
     case StereoMode::top_bottom:
       return top_bottom(pictures[0], pictures[1]);
     case StereoMode::anaglyph:

@@ -110,12 +110,20 @@ void Renderer::draw(const EyeView& view, const DrawList& list) {
   glClearDepth(0);  // reversed: infinity
   glDepthMask(GL_TRUE);
   glClear(GL_DEPTH_BUFFER_BIT);  // the sky writes every pixel that the city does not
-  draw_city(view, list);
+  draw_city(view, list, false);
   draw_sky(view);
   glFinish();
 }
 
-void Renderer::draw_city(const EyeView& view, const DrawList& list) {
+void Renderer::draw_missing(const EyeView& view, const DrawList& list) {
+  // The same triangle has the same depth again, so what was drawn before stays.
+  glBindFramebuffer(GL_FRAMEBUFFER, drawn_.id());
+  glDepthMask(GL_TRUE);
+  draw_city(view, list, true);
+  glFinish();
+}
+
+void Renderer::draw_city(const EyeView& view, const DrawList& list, bool in_red) {
   if (list.commands.empty()) return;
   glDepthFunc(GL_GREATER);
   city_program_.use();
@@ -123,6 +131,7 @@ void Renderer::draw_city(const EyeView& view, const DrawList& list) {
   glUniformMatrix4fv(city_program_.uniform("clip_from_offset"), 1, GL_FALSE,
                      glm::value_ptr(view.clip_from_offset));
   glUniform1f(city_program_.uniform("haze_m"), haze_m_);
+  glUniform1i(city_program_.uniform("in_red"), in_red);
   glBindVertexArray(city_array_.id());
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.id());
   glBufferData(GL_DRAW_INDIRECT_BUFFER, static_cast<GLsizeiptr>(list.commands.size() * sizeof(DrawCommand)),

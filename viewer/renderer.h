@@ -22,13 +22,15 @@ class Renderer {
 
   /// Draws one eye's picture and waits until it is done.
   void draw(const EyeView& view, const DrawList& list);
+  /// Draws over it, in red, what a list has nearer to the eye than anything that was drawn.
+  void draw_missing(const EyeView& view, const DrawList& list);
   /// The picture that was drawn last.
   Image read();
 
  private:
   void upload(const City& city, const IndexRanges& ranges);
   void make_targets(int samples);
-  void draw_city(const EyeView& view, const DrawList& list);
+  void draw_city(const EyeView& view, const DrawList& list, bool in_red);
   void draw_sky(const EyeView& view);
 
   uint32_t width_, height_;

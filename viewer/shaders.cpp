@@ -45,6 +45,7 @@ in vec3 offset_m;
 in float height_m;
 flat in uvec2 kind;
 uniform float haze_m;
+uniform bool in_red;
 uniform vec3 eye_m;
 layout(location = 0) out vec4 colour;
 
@@ -112,6 +113,7 @@ void main() {
   vec3 beyond = sky_light(vec3(direction.xy, max(direction.z, 0.0)));
   float haze = 1.0 - exp(-distance_m / haze_m);
   colour = vec4(exposed(mix(light, beyond, haze)), 1.0);
+  if (in_red) colour = vec4(0.55 - 0.45 * dot(normal, direction), 0.0, 0.0, 1.0);
 }
 )";
 }

@@ -9,9 +9,11 @@
 
 #include "gl/egl_context.h"
 #include "scene/error.h"
+#include "scene/text.h"
 #include "viewer/path.h"
 #include "viewer/tour.h"
 #include "viewer/view.h"
+#include "viewer/witness.h"
 
 namespace veduta {
 namespace {
@@ -19,10 +21,11 @@ namespace {
 constexpr size_t default_frames = 8;
 
 struct Command {
-  std::string file, path, out, stats;
+  std::string file, path, out, stats, witness;
   std::string stereo = "mono", size = "1280x720", pvs = "on";
   size_t frames = 0;  ///< 0: as many as the path has
   bool headless = false;
+  bool own_fov = true;  ///< of the triangle, where a witness is looked at and the user names none
   ViewOptions view;
 };
 
@@ -35,14 +38,23 @@ void declare(CLI::App& app, Command& command) {
   app.add_option("--out", command.out, "Folder for the pictures; made when missing")
       ->type_name("DIR")
       ->required();
+  CLI::Option* const witness =
+      app.add_option(
+             "--witness", command.witness,
+             "Look at an example of a verification, by its number: what the row draws, and beside it in "
+             "red what it lacks. N: kept in FILE (veduta verify --store); JSON:N: of verify --json")
+          ->type_name("N");
   app.add_option("--path", command.path,
                  "Eye points: x,y,z,yaw_deg,pitch_deg in m relative to the scene origin")
-      ->type_name("CSV");
+      ->type_name("CSV")
+      ->excludes(witness);
   app.add_option("--frames", command.frames,
                  "How many pictures, evenly along the path [as many as it has; 8 without one]")
       ->check(CLI::Range(size_t{1}, size_t{1000000}))
-      ->type_name("N");
+      ->type_name("N")
+      ->excludes(witness);
   app.add_option("--stereo", command.stereo, "How the eyes' pictures are put together")
+      ->excludes(witness)
       ->check(CLI::IsMember(stereo_mode_words()))
       ->capture_default_str();
   app.add_option("--size", command.size, "Pixels of one eye's picture")
@@ -56,14 +68,18 @@ void declare(CLI::App& app, Command& command) {
       ->check(CLI::Range(0.1, 10000.0))
       ->type_name("M")
       ->capture_default_str();
-  app.add_option("--fov", optics.vertical_fov_deg, "Vertical field of view, degrees")
+  app.add_option_function<float>(
+         "--fov", [&](float degrees) { optics.vertical_fov_deg = degrees, command.own_fov = false; },
+         fmt::format("Vertical field of view, degrees [{:g}; of a witness: what shows its triangle]",
+                     optics.vertical_fov_deg))
       ->check(CLI::Range(1.0, 150.0))
-      ->type_name("DEG")
-      ->capture_default_str();
+      ->type_name("DEG");
   app.add_option("--pvs", command.pvs, "off: draw everything, to compare")
+      ->excludes(witness)
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
   app.add_option("--stats", command.stats, "Write frame, cell, objects, triangles, draws, ms per frame")
+      ->excludes(witness)
       ->type_name("CSV");
   app.add_option("--gpu", command.view.gpu, "auto, software, or the number of an EGL device")
       ->type_name("GPU")
@@ -96,6 +112,30 @@ void warn(const std::string& line) {
   fmt::print(stderr, "veduta-view: {}\n", line);
 }
 
+void make_folder(const std::string& folder) {
+  std::error_code fault;
+  std::filesystem::create_directories(folder, fault);
+  if (fault)
+    throw Error(ExitStatus::input_output, fmt::format("{}: cannot be made: {}", folder, fault.message()));
+}
+
+void show_witness(const Command& command, const PvsFile& file) {
+  const Witness witness = find_witness(file, command.file, command.witness);
+  ViewOptions options = command.view;
+  if (command.own_fov) options.optics.vertical_fov_deg = fov_of(witness, file.city);
+  make_folder(command.out);
+  const size_t number = command.witness.rfind(':') + 1;  // 0 without one
+  const std::filesystem::path picture =
+      std::filesystem::path(command.out) / fmt::format("witness_{}.png", command.witness.substr(number));
+  const WitnessPicture drawn = draw_witness(file, witness, options);
+  write_png(picture, drawn.image);
+  fmt::print("{}: {}, cell {}, object {} \"{}\", triangle {}: {} red pixels, {:.3g} degrees high\n",
+             picture.string(), witness.gap_m > 0 ? "seen through a narrow gap" : "false invisible",
+             witness.cell, witness.object, printable(file.city.scene.objects[witness.object].name),
+             witness.triangle, drawn.red_pixels, options.optics.vertical_fov_deg);
+  if (drawn.red_pixels == 0) warn("what the row lacks is smaller than a pixel; try a smaller --fov");
+}
+
 void run(Command& command) {
   ViewOptions& options = command.view;
   parse_size(command.size, options);
@@ -104,6 +144,7 @@ void run(Command& command) {
   options.use_pvs = command.pvs == "on";
 
   const PvsFile file = read_pvs(command.file);
+  if (!command.witness.empty()) return show_witness(command, file);
   const std::vector<Pose> path = choose_path(command, file);
   if (const float parallax = parallax_at_infinity_deg(options.optics);
       options.mode != StereoMode::mono && parallax > comfortable_parallax_deg)
@@ -112,11 +153,7 @@ void run(Command& command) {
                     "use a larger --screen-distance or a smaller --iod",
                     parallax, comfortable_parallax_deg));
 
-  std::error_code fault;
-  std::filesystem::create_directories(command.out, fault);
-  if (fault)
-    throw Error(ExitStatus::input_output,
-                fmt::format("{}: cannot be made: {}", command.out, fault.message()));
+  make_folder(command.out);
   bool said = false;
   const std::vector<FrameStats> stats =
       view(file, path, options, [&](const FrameStats& frame, Image&& image) {

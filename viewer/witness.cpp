@@ -1,0 +1,136 @@
+#include "viewer/witness.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "gl/egl_context.h"
+#include "scene/text.h"
+#include "viewer/active_cells.h"
+#include "viewer/compose.h"
+#include "viewer/draw_list.h"
+#include "viewer/renderer.h"
+
+namespace veduta {
+namespace {
+
+using nlohmann::json;
+
+constexpr float narrowest_deg = 2, widest_deg = 55;
+constexpr float around = 4;  // times the triangle
+
+size_t number_of(const std::string& text) {
+  size_t number = 0;
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (fault != std::errc() || end != text.data() + text.size())
+    throw Error(ExitStatus::usage,
+                fmt::format("--witness: \"{}\" is not the number of an example, from 0 on", printable(text)));
+  return number;
+}
+
+glm::vec3 point(const json& values) {
+  if (!values.is_array() || values.size() != 3) throw std::invalid_argument("not x, y, z");
+  return {values[0].get<float>(), values[1].get<float>(), values[2].get<float>()};
+}
+
+/// Of what describe_json of verify/ writes.
+Witness witness_of(const json& example) {
+  Witness w;
+  w.cell = example.at("cell").get<uint32_t>(), w.object = example.at("object").get<uint32_t>();
+  w.triangle = example.at("triangle").get<uint64_t>();
+  w.eye = point(example.at("eye_m")), w.direction = point(example.at("direction"));
+  w.hit = point(example.at("hit_m"));
+  w.direction = glm::normalize(w.direction);
+  w.gap_m = example.value("gap_m", 0.0f), w.gap_from_eye_m = example.value("gap_from_eye_m", 0.0f);
+  return w;
+}
+
+std::vector<Witness> read_report(const PvsFile& file, const std::string& name) {
+  const InputFile input = read_input(name);
+  Verification found;
+  try {
+    const json report = json::parse(input.content());
+    if (report.at("content_digest").get<std::string>() != file.content_digest)
+      throw bad_input(name, "content_digest", "is about another bake; verify this one");
+    for (const char* list : {"examples", "narrow_gap_examples"})
+      for (const json& example : report.at(list)) found.witnesses.push_back(witness_of(example));
+  } catch (const json::exception& error) {
+    throw bad_input(name, "file", "is no report of veduta verify --json: " + printable(error.what()));
+  } catch (const std::invalid_argument& error) {
+    throw bad_input(name, "file", std::string("is no report of veduta verify --json: ") + error.what());
+  }
+  if (const auto defect = find_defect(found, file.city)) throw bad_input(name, "examples", *defect);
+  return found.witnesses;
+}
+
+uint64_t pixels_that_differ(const Image& a, const Image& b) {
+  uint64_t count = 0;
+  for (size_t p = 0; p < a.rgb.size(); p += 3)
+    count +=
+        !std::equal(a.rgb.begin() + static_cast<ptrdiff_t>(p), a.rgb.begin() + static_cast<ptrdiff_t>(p + 3),
+                    b.rgb.begin() + static_cast<ptrdiff_t>(p));
+  return count;
+}
+
+}  // namespace
+
+Witness find_witness(const PvsFile& file, const std::string& name, const std::string& which) {
+  const size_t colon = which.rfind(':');
+  const bool from_report = colon != std::string::npos;
+  const size_t number = number_of(from_report ? which.substr(colon + 1) : which);
+  if (!from_report && !file.verification)
+    throw Error(ExitStatus::usage,
+                fmt::format("{}: holds no verification; run veduta verify --store on it", name));
+  const std::vector<Witness> all =
+      from_report ? read_report(file, which.substr(0, colon)) : file.verification->witnesses;
+  if (number >= all.size())
+    throw Error(ExitStatus::usage,
+                all.empty()
+                    ? fmt::format("--witness {}: the verification found nothing to look at", which)
+                    : fmt::format("--witness {}: there are {} examples, from 0 on", which, all.size()));
+  return all[number];
+}
+
+Pose pose_of(const Witness& witness) {
+  const glm::vec3& d = witness.direction;
+  return {witness.eye, glm::degrees(std::atan2(d.y, d.x)),
+          glm::degrees(std::asin(std::clamp(d.z, -1.0f, 1.0f)))};
+}
+
+float fov_of(const Witness& witness, const City& city) {
+  float widest = 0;  // of the triangle, around the ray, radians
+  for (int k = 0; k < 3; ++k) {
+    const glm::vec3 to = city.scene.vertices[city.scene.triangles[witness.triangle][k]] - witness.eye;
+    const float across = glm::length(glm::cross(witness.direction, to));
+    widest = std::max(widest, std::atan2(across, glm::dot(witness.direction, to)));
+  }
+  return std::clamp(around * glm::degrees(widest), narrowest_deg, widest_deg);
+}
+
+WitnessPicture draw_witness(const PvsFile& file, const Witness& witness, const ViewOptions& options) {
+  Optics optics = options.optics;
+  optics.aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
+  const EglContext context(options.gpu);
+  const IndexRanges ranges(file.city);
+  const DrawLister lister(file.city, ranges);
+  Renderer renderer(file.city, ranges, options.width, options.height, options.samples);
+
+  // The row of its own cell: the eye may lie on a face that two cells share.
+  ActiveCells row, everything;
+  row.cell = witness.cell;
+  row.entries.assign(file.row(witness.cell).begin(), file.row(witness.cell).end());
+  everything.everything = true;
+  const EyeView view = eye_view(pose_of(witness), optics, Eye::middle);
+  renderer.draw(view, lister.list(row, nullptr));
+  const Image drawn = renderer.read();
+  renderer.draw_missing(view, lister.list(everything, nullptr));
+  const Image with_missing = renderer.read();
+  return {beside(drawn, with_missing), pixels_that_differ(drawn, with_missing)};
+}
+
+}  // namespace veduta
