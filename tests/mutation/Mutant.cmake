@@ -2,7 +2,7 @@
 # broken translation units are linked before the libraries, so that they take the place of the archives' members.
 
 # What all of them share: places to bake and what to say of them, compiled once.
-add_library(mutation_places OBJECT mutant_test.cpp places.cpp)
+add_library(mutation_places OBJECT mutant_test.cpp places.cpp silhouette.cpp)
 veduta_target(mutation_places)
 target_link_libraries(mutation_places PUBLIC veduta_worker veduta_verify)
 
@@ -36,7 +36,7 @@ function(broken_copy name file replace with directory)
   endif()
   string(REPLACE "${replace}" "${with}" broken "${original}")
   # Written only when it changes, so that nothing is compiled again for nothing.
-  file(CONFIGURE OUTPUT ${directory}/${file}.new CONTENT "${broken}" @ONLY)
+  file(WRITE ${directory}/${file}.new "${broken}")
   file(COPY_FILE ${directory}/${file}.new ${directory}/${file} ONLY_IF_DIFFERENT)
 endfunction()
 
@@ -46,6 +46,9 @@ endfunction()
 # an error, and why is said in docs/mutation.md.
 function(veduta_mutant name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "SOUND" "FILE;REPLACE;WITH" "PLACES;COMPILE")
+  if(arg_UNPARSED_ARGUMENTS OR NOT arg_REPLACE OR arg_REPLACE STREQUAL arg_WITH)
+    message(FATAL_ERROR "mutant ${name}: give FILE, REPLACE, WITH and PLACES; not understood: ${arg_UNPARSED_ARGUMENTS}")
+  endif()
   set(directory ${CMAKE_CURRENT_BINARY_DIR}/${name})
   broken_copy(${name} ${arg_FILE} "${arg_REPLACE}" "${arg_WITH}" ${directory})
   if(arg_COMPILE)

@@ -34,7 +34,8 @@ bool bake_and_verify(const Place& place) {
   const auto method = make_occlusion_method(place.method, city.input());
   std::vector<CellOcclusion> answers;
   method->bake(city.all_cells(), [&](const CellOcclusion& answer) { answers.push_back(answer); });
-  const VerifyReport report = test::shoot(city, answers, place.rays_per_cell);
+  const VerifyReport report =
+      test::shoot(city, answers, place.rays / answers.size(), city.settings.stereo.eye_margin_m);
   if (report.rays == 0) throw Error(ExitStatus::defect, place.name + ": no ray was shot");
   tell(place.name, city, report);
   return report.passed();

@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "tests/worker/occlusion_city.h"
 
@@ -13,13 +12,10 @@ struct Place {
   std::string name;
   std::function<void(test::OcclusionCity&)> build;
   std::string method = "panorama";
-  uint64_t rays_per_cell = 300'000;
+  uint64_t rays = 300'000;  ///< to verify with, shared by its cells
 };
 
 /// \throw Error(usage) when there is none of this name.
 Place place(const std::string& name);
-
-/// Of all places, in a fixed order.
-std::vector<std::string> place_names();
 
 }  // namespace veduta::mutation

@@ -11,8 +11,9 @@ namespace veduta::test {
 
 /// What rays into the model say of the rows that the answers make. The file names no size of seeds, so that
 /// nothing is excused for being seen through a narrow gap.
+/// \param beside_m how far eyes may be beside their cell
 inline VerifyReport shoot(const OcclusionCity& city, const std::vector<CellOcclusion>& answers,
-                          uint64_t rays_per_cell) {
+                          uint64_t rays_per_cell, double beside_m = 0) {
   PvsFile file;
   file.city = city.city();
   file.city.cells.clear();  // those that were not asked for are left out
@@ -22,7 +23,9 @@ inline VerifyReport shoot(const OcclusionCity& city, const std::vector<CellOcclu
     file.cell_status.push_back(CellStatus::baked);
     file.bake_us.push_back(0);
     file.overestimate.push_back(0);
-    file.city.cells.push_back(city.city().cells[answer.cell]);
+    const Box& cell = city.city().cells[answer.cell];
+    const auto beside = static_cast<float>(beside_m);
+    file.city.cells.push_back({cell.lower - beside, cell.upper + beside});
     for (uint32_t o = 0; o < city.city().scene.objects.size(); ++o) {
       const VisibilityIndex index = city.row_entry(answer, o);
       if (!index.nothing()) file.entries.push_back({o, index});
