@@ -19,15 +19,15 @@ void box(std::ostream& out, const std::string& name, double x0, double y0, doubl
 /// A million triangles: a screen of tiles with a relief, before and behind which there are houses.
 void million(std::ostream& out) {
   constexpr int columns = 1000, rows = 500;
-  box(out, "ground", -60, -60, -1, 60, 60, 0);
+  box(out, "ground", -8, -16, -1, 52, 16, 0);
   box(out, "before", 10, -6, 0, 14, -2, 4);
-  box(out, "wall", 20, -50, 0, 30, 50, 12);
+  box(out, "wall", 20, -14, 0, 30, 14, 12);
   box(out, "behind", 36, -4, 0, 40, 4, 3);
   box(out, "tower", 44, -5, 0, 50, 5, 45);
   out << "o relief\n";
   for (int row = 0; row <= rows; ++row) {
     for (int column = 0; column <= columns; ++column)
-      out << "v " << 18 + 0.5 * std::sin(0.1 * row) * std::cos(0.07 * column) << " " << -50 + 0.1 * column
+      out << "v " << 18 + 0.5 * std::sin(0.1 * row) * std::cos(0.07 * column) << " " << -10 + 0.02 * column
           << " " << 0.02 * row << "\n";
   }
   const auto at = [](int row, int column) { return 41 + row * (columns + 1) + column; };

@@ -49,6 +49,8 @@ void read_key(HardCase& hard_case, const std::string& key, const toml::node& nod
     });
   else if (key == "refused")
     hard_case.refused = text();
+  else if (key == "known_fault")
+    hard_case.known_fault = text();
   else if (key == "looks")
     hard_case.looks = node.value<size_t>().value();
   else if (key == "generated")

@@ -87,6 +87,12 @@ TEST_P(HardCases, NothingSeenIsLeftOut) {
     }
     ASSERT_FALSE(seen.empty()) << "no cell has a certain eye";
     const Verdict verdict = judge(file, reference, seen);
+    if (!case_.known_fault.empty()) {
+      EXPECT_FALSE(verdict.wrong.empty()) << "mended: take known_fault out of case.toml";
+      std::cout << method << ", known fault: " << verdict.wrong.size() << " left out: " << case_.known_fault
+                << "\n";
+      continue;
+    }
     for (size_t n = 0; n < std::min<size_t>(verdict.wrong.size(), 5); ++n) ADD_FAILURE() << verdict.wrong[n];
     EXPECT_EQ(verdict.wrong.size(), 0u);
     for (const std::string& text : verdict.through_gaps)
