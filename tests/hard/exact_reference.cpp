@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <span>
+#include <stdexcept>
 
 #include "tests/hard/exact_geometry.h"
 #include "tests/hard/segment_distance.h"
@@ -12,7 +13,8 @@
 namespace veduta::hard {
 namespace {
 
-constexpr double most = 1LL << 35;     // of a coordinate, so that points beside the model fit in
+constexpr double most =
+    1LL << 36;  // of a coordinate; of those of the model half, so that points beside it fit in
 constexpr double box_margin = 8;       // of the hierarchy's boxes, for the doubles that they are met in
 constexpr double clear_margin = 1e-9;  // of the extent
 constexpr uint32_t most_in_leaf = 4;
@@ -92,8 +94,11 @@ struct ExactReference::Exact {
 
   Whole whole(const Point& p) const {
     Whole w{};
-    for (size_t axis = 0; axis < 3; ++axis)
-      w[axis] = std::llround(std::clamp((p[axis] - origin[axis]) * scale, -2 * most, 2 * most));
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double at = (p[axis] - origin[axis]) * scale;
+      if (!(std::abs(at) < most)) throw std::out_of_range("exact reference: a point far outside of its box");
+      w[axis] = std::llround(at);
+    }
     return w;
   }
 

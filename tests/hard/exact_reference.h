@@ -1,9 +1,9 @@
 // What is seen, by integer arithmetic that rounds nothing: the judge of the hard cases.
 //
 // It shares no code with what it judges: its own reader, its own hierarchy, no Embree, no geometry of the
-// product. Coordinates are rounded once, to multiples of a power of two (2^-37 of the scene's extent: 2^-20 m
-// for a city of 100 km); from then on every decision is exact: determinants of differences in 128 bits,
-// ratios of them compared in 256.
+// product. Coordinates are rounded once, to multiples of a power of two (2^-35 of the scene's extent at most:
+// 2^-19 m for a city of 100 km); from then on every decision is exact: determinants of differences in 128
+// bits, ratios of them compared in 256.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,8 @@ struct Sight {
 
 class ExactReference {
  public:
-  /// \param eyes points that the box of the arithmetic has to hold besides the model
+  /// \param eyes points that the box of the arithmetic has to hold besides the model. Half of its size may be
+  /// looked beyond it; further away: std::out_of_range.
   ExactReference(ExactModel model, const std::vector<Point>& eyes);
   ~ExactReference();
   ExactReference(const ExactReference&) = delete;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <random>
+#include <stdexcept>
 
 #include "tests/hard/exact_geometry.h"
 #include "tests/hard/segment_distance.h"
@@ -39,6 +40,11 @@ TEST(ExactReference, MeetsTheNearest) {
   const auto sight = reference.look({0, 0, 0}, {4, 1, 0});
   ASSERT_TRUE(sight);
   EXPECT_EQ(sight->point, (Point{1, 0.25, 0}));
+}
+
+TEST(ExactReference, RefusesWhatItsIntegersDoNotHold) {
+  const ExactReference reference(model_of({near_wall}), {{0, 0, 0}});
+  EXPECT_THROW(reference.look({0, 0, 1e9}, {1, 0, 0}), std::out_of_range);
 }
 
 // By a hair on either side of an edge, and on the edge: beyond what a float or a rounded double tells apart.

@@ -59,6 +59,11 @@ void read_key(HardCase& hard_case, const std::string& key, const toml::node& nod
     throw std::runtime_error("case.toml: unknown key case." + key);
 }
 
+/// In the coordinates of the model.
+Point in_model(const Scene& scene, const glm::vec3& p) {
+  return {scene.origin[0] + p.x, scene.origin[1] + p.y, scene.origin[2] + p.z};
+}
+
 }  // namespace
 
 HardCase read_case(const std::filesystem::path& folder) {
@@ -102,15 +107,19 @@ PvsFile bake_case(const PreparedCase& prepared, Settings settings, const std::st
   return file;
 }
 
+std::vector<Point> places_of_eyes(const HardCase& hard_case, const City& city) {
+  std::vector<Point> places = hard_case.stands;
+  for (const Box& cell : city.cells)
+    for (const glm::vec3& corner : {cell.lower, cell.upper}) places.push_back(in_model(city.scene, corner));
+  return places;
+}
+
 std::vector<CellSightings> look_from_cells(const ExactReference& reference, const HardCase& hard_case,
                                            const PvsFile& file) {
   LookAbout about;
   about.stands = hard_case.stands, about.gaps = hard_case.gaps, about.looks = hard_case.looks;
   about.clearance_m = 2 * hard_case.settings.navigation.seed_size_m;
-  const auto& origin = file.city.scene.origin;
-  const auto world = [&](const glm::vec3& p) {
-    return Point{origin[0] + p.x, origin[1] + p.y, origin[2] + p.z};
-  };
+  const auto world = [&](const glm::vec3& p) { return in_model(file.city.scene, p); };
   std::vector<CellSightings> all;
   for (uint32_t cell = 0; cell < file.city.cells.size(); ++cell) {
     const Box& box = file.city.cells[cell];

@@ -40,6 +40,9 @@ PreparedCase prepare_case(const Settings& settings);
 /// Bakes every cell by a method.
 PvsFile bake_case(const PreparedCase& prepared, Settings settings, const std::string& method);
 
+/// What a reference has to hold besides the model: stands, and the corners of the cells.
+std::vector<Point> places_of_eyes(const HardCase& hard_case, const City& city);
+
 /// What is seen for certain, by cell. The cells are those of the file; the same for all methods.
 struct CellSightings {
   uint32_t cell = 0;

@@ -75,8 +75,9 @@ TEST_P(HardCases, NothingSeenIsLeftOut) {
   if (!case_.refused.empty()) return expect_refused();
   if (!gl_is_here()) GTEST_SKIP() << "no EGL device with OpenGL 4.3 here";
   const double unit = case_.settings.scene.unit_m > 0 ? case_.settings.scene.unit_m : 1;
-  const ExactReference reference(read_exact_model(case_.settings.scene.model.front(), unit), case_.stands);
   const PreparedCase prepared = prepare_case(case_.settings);
+  const ExactReference reference(read_exact_model(case_.settings.scene.model.front(), unit),
+                                 places_of_eyes(case_, prepared.city));
   std::vector<CellSightings> seen;
   for (const std::string method : {"panorama", "zoom"}) {
     SCOPED_TRACE(method);

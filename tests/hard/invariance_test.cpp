@@ -159,7 +159,8 @@ class Invariance : public testing::TestWithParam<std::string> {
       const glm::vec3 at = cell.center();
       town.stands.push_back({origin[0] + at.x, origin[1] + at.y, origin[2] + at.z});
     }
-    const ExactReference reference(read_exact_model(settings.scene.model.front(), 1), town.stands);
+    const ExactReference reference(read_exact_model(settings.scene.model.front(), 1),
+                                   places_of_eyes(town, file.city));
     const auto seen = look_from_cells(reference, town, file);
     EXPECT_EQ(seen.size(), file.city.cells.size());
     const Verdict verdict = judge(file, reference, seen);

@@ -20,7 +20,8 @@ class SpoiltRows : public testing::TestWithParam<std::string> {
     }
     case_ = read_case(std::filesystem::path(VEDUTA_TEST_CASES) / GetParam());
     file_ = bake_case(prepare_case(case_.settings), case_.settings, "panorama");
-    reference_.emplace(read_exact_model(case_.settings.scene.model.front(), 1), case_.stands);
+    reference_.emplace(read_exact_model(case_.settings.scene.model.front(), 1),
+                       places_of_eyes(case_, file_.city));
     seen_ = look_from_cells(*reference_, case_, file_);
   }
 
