@@ -157,10 +157,10 @@ struct RootAttributes {
   std::string content_digest;
 };
 
-/// XXH3-128 over the logical content: dataset digests in the order of their paths without /cells/bake_us, and
-/// the attributes that give numbers a meaning. Over-estimates belong to it: a reader relies on them, and on
-/// one kind of machine they repeat as the rows do. Not over config, renderer and fingerprint, which say how
-/// it was made.
+/// XXH3-128 over the logical content: dataset digests in the order of their paths without /cells/bake_us and
+/// /verification, and the attributes that give numbers a meaning. Over-estimates belong to it: a reader
+/// relies on them, and on one kind of machine they repeat as the rows do. Not over config, renderer and
+/// fingerprint, which say how it was made.
 std::string content_digest(const City& city, bool conservative, const ColumnDigests& digests);
 
 /// XXH3-128 over the root's attributes: without it, a flipped bit in a text could go unseen.
