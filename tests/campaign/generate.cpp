@@ -33,14 +33,21 @@ Settings random_settings(Dice& dice) {
   s.occlusion.resolution = dice.pick({64, 128, 256, 512});
   s.occlusion.subdivide = dice.pick({1, 2, 4});
   s.occlusion.max_overestimate = dice.pick({1.0, 1.0, 1.0, 1.5, 3.0});
+  if (s.occlusion.method == "zoom")  // slow
+    s.occlusion.subdivide = std::min(s.occlusion.subdivide, 2);
   s.stereo.eye_margin_m = dice.pick({0.0, 0.0325, 0.0325, 0.2});
   return s;
+}
+
+/// How far from the cell things stand mostly: fine seeds are many.
+double spread_m(const Settings& settings) {
+  return std::clamp(240 * settings.navigation.seed_size_m, 15.0, 30.0);
 }
 
 /// Level, uneven or none. \return the terrain to stand on, for heights.
 Piece add_ground(CampaignScene& scene, Dice& dice) {
   Piece piece;
-  const double edge = dice.real(60, 100);
+  const double edge = 2.2 * spread_m(scene.settings) + dice.real(8, 40);
   piece.foot = {0, 0, 0}, piece.size = {edge, edge, 0}, piece.bumps = dice.bits();
   const double kind = dice.real(0, 1);
   if (kind < 0.1) return piece;
@@ -154,10 +161,11 @@ CampaignScene generate(uint64_t number) {
   for (int n = 0; n < plots; ++n) {
     const auto plot = dice.chance(0.5) ? dice.pick({Plot::wall, Plot::block, Plot::row_houses})
                                        : static_cast<Plot>(dice.whole(0, static_cast<int>(Plot::count) - 1));
-    const double away = plot == Plot::over_cell                       ? dice.real(0, 1)
-                        : plot == Plot::far_away                      ? dice.real(0.5, 1) * reach
-                        : plot == Plot::courtyard && dice.chance(0.5) ? 0.5
-                                                                      : 1.5 * cell + dice.real(4, 30);
+    const double away = plot == Plot::over_cell  ? dice.real(0, 1)
+                        : plot == Plot::far_away ? dice.real(0.5, 1) * reach
+                        : plot == Plot::courtyard && dice.chance(0.5)
+                            ? 0.5
+                            : 1.5 * cell + dice.real(4, spread_m(scene.settings));
     const double heading = dice.angle();
     Site site{scene.settings, away * glm::dvec2(std::cos(heading), std::sin(heading)), 0};
     site.ground_m = ground.size.z > 0
