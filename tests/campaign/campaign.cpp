@@ -14,6 +14,8 @@
 namespace veduta::campaign {
 namespace {
 
+constexpr size_t patience = 20;  // checks of a scene that hangs
+
 void add(const Isolated::Answer& answer, CampaignReport& report) {
   const Outcome& o = answer.outcome;
   ++report.scenes, ++report.verdicts[o.verdict];
@@ -22,6 +24,7 @@ void add(const Isolated::Answer& answer, CampaignReport& report) {
   report.sum.narrow_gap_objects += o.narrow_gap_objects;
   if (answer.elapsed_s > report.slowest_s)
     report.slowest_s = answer.elapsed_s, report.slowest = answer.number;
+  if (o.verdict == Verdict::turned_gap) report.turned_gaps.push_back(answer.number);
   if (is_failure(o.verdict)) report.failures.push_back({answer.number, o, {}, 0});
 }
 
@@ -37,10 +40,12 @@ void keep(Failure& failure, const CampaignOptions& options, const SceneCheck& ch
   const CampaignScene scene = generate(failure.number);
   const std::filesystem::path folder = options.out / fmt::format("scene_{}", failure.number);
   write_case(scene, failure.outcome, fmt::format("scene {} as generated", failure.number), folder / "whole");
+  // Every check of a scene that hangs may take as long as is allowed.
+  const size_t most = failure.outcome.verdict == Verdict::hung ? std::min(options.minimising_checks, patience)
+                                                               : options.minimising_checks;
   const Minimal minimal = minimise(
       scene, failure.outcome,
-      [&](const CampaignScene& candidate) { return isolated.run([&] { return check(candidate); }); },
-      options.minimising_checks);
+      [&](const CampaignScene& candidate) { return isolated.run([&] { return check(candidate); }); }, most);
   failure.folder = folder, failure.things = minimal.scene.things.size();
   write_case(minimal.scene, minimal.outcome,
              fmt::format("scene {}, made small in {} checks", failure.number, minimal.checks), folder);

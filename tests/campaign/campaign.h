@@ -36,6 +36,7 @@ struct CampaignReport {
   std::map<Verdict, uint64_t> verdicts;
   Outcome sum;  ///< of the counts
   std::vector<Failure> failures;
+  std::vector<uint64_t> turned_gaps;  ///< numbers of scenes with that verdict
   double elapsed_s = 0;
   double slowest_s = 0;
   uint64_t slowest = 0;  ///< its number

@@ -47,6 +47,7 @@ std::string describe_json(const CampaignReport& report, const CampaignOptions& o
                             {"elapsed_s", report.elapsed_s},
                             {"slowest_s", report.slowest_s},
                             {"slowest_scene", report.slowest},
+                            {"turned_gap_scenes", report.turned_gaps},
                             {"passed", report.passed()},
                             {"failures", failures}};
   return json.dump(2) + "\n";

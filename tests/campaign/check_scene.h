@@ -16,7 +16,8 @@ namespace veduta::campaign {
 
 enum class Verdict : uint8_t {
   passed,
-  no_place,         ///< to stand in: there is nothing to check
+  no_place,    ///< to stand in: there is nothing to check
+  turned_gap,  ///< seen through nothing but gaps that a cube of two seeds does not pass (docs/campaign.md)
   false_invisible,  ///< a ray meets what a row does not draw
   unfounded,        ///< something is hidden that no occluder hides
   threw,            ///< an exception ended it
@@ -24,9 +25,9 @@ enum class Verdict : uint8_t {
   hung,             ///< it took too long (isolate.h)
 };
 
-inline constexpr std::array all_verdicts{Verdict::passed,    Verdict::no_place, Verdict::false_invisible,
-                                         Verdict::unfounded, Verdict::threw,    Verdict::crashed,
-                                         Verdict::hung};
+inline constexpr std::array all_verdicts{Verdict::passed,          Verdict::no_place,  Verdict::turned_gap,
+                                         Verdict::false_invisible, Verdict::unfounded, Verdict::threw,
+                                         Verdict::crashed,         Verdict::hung};
 std::string name_of(Verdict verdict);
 bool is_failure(Verdict verdict);
 
@@ -47,7 +48,7 @@ struct CheckOptions {
   size_t eyes_per_cell = 14;
   /// For tests that a check can fail: what is done to the occluders before the bake, and to its answers.
   std::function<void(std::vector<WindowOccluders>&)> spoil_occluders;
-  std::function<void(CellOcclusion&, const SliceBoxes&)> spoil_answer;
+  std::function<void(CellOcclusion&, const OcclusionInput&)> spoil_answer;
 };
 
 /// Prepares, bakes and checks a configuration with its model, in this process. Needs EGL. Throws nothing.

@@ -27,12 +27,15 @@ Settings random_settings(Dice& dice) {
   }
   s.slices.max = dice.pick({1, 2, 4, 8, 8, 16});
   s.shrink.method = dice.pick<const char*>({"planes", "planes", "planes", "sections", "sealed", "vertex"});
-  // Sections take a minute for a scene with fine seeds.
-  if (s.shrink.method == "sections" && s.navigation.seed_size_m < 0.1) s.shrink.method = "planes";
   s.occlusion.method = dice.chance(0.1) ? "zoom" : "panorama";
   s.occlusion.resolution = dice.pick({64, 128, 256, 512});
   s.occlusion.subdivide = dice.pick({1, 2, 4});
   s.occlusion.max_overestimate = dice.pick({1.0, 1.0, 1.0, 1.5, 3.0});
+  // Sections take minutes where seeds are fine, or parts of a cell not much larger than a seed.
+  const double part_m = s.cells.size_m / s.occlusion.subdivide;
+  if (s.shrink.method == "sections" &&
+      (s.navigation.seed_size_m < 0.1 || part_m < 4 * s.navigation.seed_size_m))
+    s.shrink.method = "planes";
   if (s.occlusion.method == "zoom")  // slow
     s.occlusion.subdivide = std::min(s.occlusion.subdivide, 2);
   s.stereo.eye_margin_m = dice.pick({0.0, 0.0325, 0.0325, 0.2});
