@@ -1,21 +1,25 @@
 #include "verify/borders.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "verify/directions.h"
-
 namespace veduta {
 namespace {
 
-constexpr size_t run = 4;             // samples of an edge from one eye
-constexpr size_t runs_an_eye = 4;     // before the next eye's turn
-constexpr float least_angle = 1e-5f;  // past the edge
-constexpr float angle_range = 3000;   // the largest over the least
-constexpr uint32_t deepest_gap = 6;   // halvings
+constexpr size_t run = 4;          // samples of an edge from one eye
+constexpr size_t runs_an_eye = 4;  // before the next eye's turn
+// Past the edge: from 1e-5 to 0.03, evenly in the logarithm.
+const std::array<float, 256> angles = [] {
+  std::array<float, 256> result{};
+  for (size_t i = 0; i < result.size(); ++i)
+    result[i] = 1e-5f * std::pow(3000.0f, static_cast<float>(i) / static_cast<float>(result.size() - 1));
+  return result;
+}();
+constexpr uint32_t deepest_gap = 6;  // halvings
 
 // Where the line from + t * step is in the box: [first, last], first > last when nowhere.
 std::pair<float, float> inside(const Box& box, const glm::vec3& from, const glm::vec3& step) {
@@ -57,20 +61,40 @@ void Borders::sample_edge(uint32_t edge, const glm::vec3& eye, Random& random, s
   const int corner = static_cast<int>(edges_[edge].corner);
   const glm::vec3 &a = scene_.vertices[c[corner]], &b = scene_.vertices[c[(corner + 1) % 3]],
                   &opposite = scene_.vertices[c[(corner + 2) % 3]];
+  const glm::vec3 way = a - eye, side = b - a;
+  // Across the line of sight and the edge, all along it, and as long as the middle is far.
+  glm::vec3 out = glm::cross(side, way);
+  const float length2 = glm::dot(out, out);
+  if (length2 > 0)
+    out *= (glm::dot(out, opposite - a) > 0 ? -1.0f : 1.0f) * glm::length(way + 0.5f * side) /
+           std::sqrt(length2);
   for (size_t i = 0; i < run; ++i) {
-    const glm::vec3 place = glm::mix(a, b, (static_cast<float>(i) + random.unit()) / static_cast<float>(run));
-    const glm::vec3 along = direction_to(place, eye);
-    glm::vec3 out = glm::cross(b - a, along);
-    const float length2 = glm::dot(out, out);
-    if (length2 > 0) out *= (glm::dot(out, opposite - place) > 0 ? -1.0f : 1.0f) / std::sqrt(length2);
-    const float angle = least_angle * std::pow(angle_range, random.unit());
-    rays.push_back({eye, glm::normalize(along + out * angle)});
-    sampled_.push_back({edge, place});
+    const uint64_t bits = random.bits();
+    const float along =
+        (static_cast<float>(i) + static_cast<float>(bits >> 40) * 0x1p-24f) / static_cast<float>(run);
+    const glm::vec3 place = way + side * along;
+    const glm::vec3 past = place + out * angles[bits & 0xff];
+    const float past2 = glm::dot(past, past);
+    rays.push_back({eye, past2 > 0 ? past * (1 / std::sqrt(past2)) : glm::vec3(0, 0, 1)});
+    sampled_.push_back({edge, eye + place});
   }
 }
 
-void Borders::aim(size_t count, std::span<const glm::vec3> eyes, Random& random, std::vector<Ray>& rays) {
+void Borders::take_up() {
+  const auto before = [this](uint32_t a, uint32_t b) {
+    return edges_[a].key != edges_[b].key ? edges_[a].key < edges_[b].key : a < b;
+  };
+  for (auto edge = static_cast<uint32_t>(known_.size()); edge < edges_.size(); ++edge) known_.push_back(edge);
+  std::sort(known_.begin(), known_.end(), before);
+  silhouettes_.clear();
+  for (const uint32_t edge : known_)
+    if (edges_[edge].silhouette) silhouettes_.push_back(edge);
+}
+
+void Borders::aim(const Strata& part, std::span<const glm::vec3> eyes, Random& random,
+                  std::vector<Ray>& rays) {
   rays.clear(), sampled_.clear(), looked_into_.clear();
+  const size_t count = part.size();
   limit_ = count;
   const auto take = [](auto& queue, size_t most, const auto& use) {
     most = std::min(most, queue.size());
@@ -80,23 +104,26 @@ void Borders::aim(size_t count, std::span<const glm::vec3> eyes, Random& random,
   take(fresh_, count / 2 / (3 * run), [&](const Fresh& fresh) {
     for (uint32_t k = 0; k < 3; ++k) sample_edge(fresh.first_edge + k, fresh.eye, random, rays);
   });
-  const size_t into_gaps = std::min(gaps_.size(), count / 4), past = std::min(reverse_.size(), count / 8);
+  const size_t into_gaps = std::min(gaps_.size(), count / 8), past = std::min(reverse_.size(), count / 4);
   // Edges already known, from eyes that may see past them where others do not.
   const size_t used = rays.size() + into_gaps + past;
   const size_t runs = used < count ? (count - used) / run : 0;
-  std::vector<std::pair<uint32_t, uint32_t>> picked;  // key, edge
-  for (size_t i = 0; i < runs && !edges_.empty(); ++i) {
-    const bool known = random.below(4) > 0 && !silhouettes_.empty();
-    const uint32_t edge =
-        known ? silhouettes_[random.below(silhouettes_.size())] : random.below(edges_.size());
-    picked.emplace_back(edges_[edge].key, edge);
-  }
-  std::sort(picked.begin(), picked.end());
-  const glm::vec3* eye = nullptr;
-  for (size_t i = 0; i < picked.size(); ++i) {
-    if (i % runs_an_eye == 0) eye = &eyes[random.below(eyes.size())];
-    sample_edge(picked[i].second, *eye, random, rays);
-  }
+  const auto sample = [&](const std::vector<uint32_t>& edges, size_t times) {
+    if (edges.empty()) return;
+    const double first = static_cast<double>(part.begin) / static_cast<double>(part.of),
+                 last = static_cast<double>(part.end) / static_cast<double>(part.of);
+    const glm::vec3* eye = nullptr;
+    for (size_t i = 0; i < times; ++i) {
+      if (i % runs_an_eye == 0) eye = &eyes[random.below(eyes.size())];
+      const double at = (static_cast<double>(i) + random.unit()) / static_cast<double>(times);
+      const auto edge =
+          static_cast<size_t>((first + (last - first) * at) * static_cast<double>(edges.size()));
+      sample_edge(edges[std::min(edge, edges.size() - 1)], *eye, random, rays);
+    }
+  };
+  const size_t of_silhouettes = silhouettes_.empty() ? 0 : runs * 3 / 4;
+  sample(silhouettes_, of_silhouettes);
+  sample(known_, runs - of_silhouettes);
   take(gaps_, into_gaps, [&](const Gap& gap) {
     rays.push_back({gap.eye, glm::normalize(gap.one + gap.other)});
     looked_into_.push_back(gap);
@@ -116,20 +143,17 @@ void Borders::learn_sample(size_t i, std::span<const Ray> rays, std::span<const 
   // A surface going on past its edge comes nearer or goes away by little.
   const bool farther = hits[i].triangle == Hit::none || hits[i].distance_m > 1.1f * distance,
              nearer = !farther && hits[i].distance_m < 0.9f * distance;
-  if (farther && !edges_[sample.edge].silhouette) {
-    edges_[sample.edge].silhouette = true;
-    silhouettes_.push_back(sample.edge);
-  }
-  if (nearer && reverse_.size() < limit_)
+  if (farther) edges_[sample.edge].silhouette = true;
+  if (nearer && reverse_.size() < limit_ / 4)
     reverse(sample.place, hits[i].triangle, rays[i].eye + rays[i].direction * hits[i].distance_m, random);
   if (i % run == 0) return;
   const uint32_t here = object_at(hits[i]), before = object_at(hits[i - 1]);
-  if (here != before && gaps_.size() < limit_)
+  if (here != before && gaps_.size() < limit_ / 8)
     gaps_.push_back({rays[i].eye, rays[i - 1].direction, rays[i].direction, before, here, 1});
 }
 
 void Borders::learn_gap(const Gap& gap, const Ray& ray, const Hit& hit) {
-  if (gap.level == deepest_gap || gaps_.size() >= limit_) return;
+  if (gap.level == deepest_gap || gaps_.size() >= limit_ / 8) return;
   const uint32_t between = object_at(hit);
   if (between != gap.one_object)
     gaps_.push_back({gap.eye, gap.one, ray.direction, gap.one_object, between, gap.level + 1});

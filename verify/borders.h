@@ -10,6 +10,7 @@
 #include "scene/random.h"
 #include "scene/ray_scene.h"
 #include "scene/scene.h"
+#include "verify/directions.h"
 
 namespace veduta {
 
@@ -37,9 +38,12 @@ class Borders {
   void add(uint32_t triangle, const glm::vec3& eye);
   bool empty() const { return edges_.empty(); }
 
-  /// Replaces `rays` by about `count` of them, those of a kind close together. Eyes are taken in turn, each
-  /// for 16 rays or so.
-  void aim(size_t count, std::span<const glm::vec3> eyes, Random& random, std::vector<Ray>& rays);
+  /// From now on, all edges known are sampled. Those that are new since the last call are so only once.
+  void take_up();
+  /// Replaces `rays` by at most as many as the part has: samples past edges of this part of those known,
+  /// along a Morton curve around the cell, each 16 from a random eye; and what the last aim() gave reason
+  /// for.
+  void aim(const Strata& part, std::span<const glm::vec3> eyes, Random& random, std::vector<Ray>& rays);
   /// What the rays of the last aim() met.
   void learn(std::span<const Ray> rays, std::span<const Hit> hits, Random& random);
 
@@ -53,7 +57,7 @@ class Borders {
     uint32_t first_edge = 0;
     glm::vec3 eye{0};
   };
-  /// A border sample: the ray passes the edge there, outside of the triangle.
+  /// A border sample: the ray passes this place of the edge, outside of the triangle.
   struct Sample {
     uint32_t edge = 0;
     glm::vec3 place{0};
@@ -75,7 +79,7 @@ class Borders {
   Box cell_;
   EyeTest eye_test_;
   std::vector<Edge> edges_;
-  std::vector<uint32_t> silhouettes_;  // numbers in edges_
+  std::vector<uint32_t> known_, silhouettes_;  // numbers in edges_, along the curve
   std::vector<Fresh> fresh_;
   std::vector<Gap> gaps_;
   std::vector<Ray> reverse_;

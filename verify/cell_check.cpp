@@ -1,22 +1,22 @@
 #include "verify/cell_check.h"
 
 #include <algorithm>
-#include <array>
-#include <chrono>
+#include <bit>
 #include <numeric>
 
 #include "verify/borders.h"
 #include "verify/directions.h"
 #include "verify/eyes.h"
 #include "verify/missing.h"
+#include "verify/stopwatch.h"
 #include "verify/tightest_index.h"
 
 namespace veduta {
 namespace {
 
-constexpr size_t run = 16;  // rays from one eye before the next one's turn: a packet
-// Rays between two looks at what was found: few at first, while much is new.
-constexpr uint64_t least_round = 2048, most_round = 65536;
+constexpr size_t run = 16;              // rays from one eye before the next one's turn: a packet
+constexpr uint64_t round_rays = 65536;  // at a time: they and their hits stay in the cache
+constexpr uint64_t first_rays = 4096;   // about so many before the first look at what was met
 
 // The triangles that a row draws, [T].
 std::vector<uint8_t> drawn_by(const PvsFile& file, uint32_t cell) {
@@ -28,23 +28,6 @@ std::vector<uint8_t> drawn_by(const PvsFile& file, uint32_t cell) {
   }
   return drawn;
 }
-
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-// Adds the time of its life to a sum.
-class Timed {
- public:
-  explicit Timed(double& sum_s) : sum_s_(sum_s) {}
-  ~Timed() { sum_s_ += seconds_since(begin_); }
-  Timed(const Timed&) = delete;
-  Timed& operator=(const Timed&) = delete;
-
- private:
-  double& sum_s_;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
 
 // Shoots rays from one cell and keeps what they meet.
 class Shooter {
@@ -70,9 +53,33 @@ class Shooter {
     for (size_t i = eyes_.size(); i > 1; --i) std::swap(eyes_[i - 1], eyes_[random_.below(i)]);
   }
 
+  // A quarter of the rays go all over the sphere, a quarter at what the row does not draw, an eighth at what
+  // it draws and no ray has met, the rest past the borders of what was met. Where there is nothing to aim at,
+  // all over the sphere instead.
   void shoot_until(uint64_t rays) {
-    while (check_.rays < rays)
-      round(std::min(rays - check_.rays, std::clamp(check_.rays / 4, least_round, most_round)));
+    const uint64_t count = rays - std::min(rays, check_.rays);
+    {
+      const Timed timed(check_.times.directions_s);
+      unmet_ = Targets(city_.file.city.scene, met_or_undrawn(), order_);
+      borders_.take_up();
+    }
+    const uint64_t at_hidden = hidden_.empty() ? 0 : count / 8 * 2,
+                   at_unmet = unmet_.empty() ? 0 : count / 16 * 2,
+                   at_borders = borders_.empty() ? 0 : count * 3 / 8;
+    const uint64_t rounds = (count + round_rays - 1) / round_rays;
+    for (uint64_t i = 0; i < rounds; ++i) {
+      const auto part = [&](uint64_t of) { return Strata{of * i / rounds, of * (i + 1) / rounds, of}; };
+      aim(hidden_, part(at_hidden / 2));
+      aim(unmet_, part(at_unmet / 2));
+      past_borders(part(at_borders));
+      all_around(part(count - at_hidden - at_unmet - at_borders));
+    }
+    // Borders do not always have as many rays as they may.
+    if (check_.rays < rays) all_around({0, rays - check_.rays, rays - check_.rays});
+  }
+
+  /// Remembers what was seen so far.
+  void note() {
     check_.seen.push_back(now_);
     check_.seen.back().rays = check_.rays;
   }
@@ -85,28 +92,15 @@ class Shooter {
   }
 
  private:
-  // A quarter of the rays go all over the sphere, a quarter at what the row does not draw, an eighth at what
-  // it draws and no ray has met, the rest past the borders of what was met. Where there is nothing to aim at,
-  // all over the sphere instead.
-  void round(uint64_t count) {
-    if (check_.rays >= next_unmet_) {
-      const Timed timed(check_.times.directions_s);
-      unmet_ = Targets(city_.file.city.scene, met_or_undrawn(), order_);
-      next_unmet_ = 2 * check_.rays;
-    }
-    const uint64_t end = check_.rays + count;
-    if (!hidden_.empty()) aim(hidden_, count / 4);
-    if (!unmet_.empty()) aim(unmet_, count / 8);
-    if (!borders_.empty()) past_borders(3 * count / 8);
-    if (check_.rays < end) all_around(end - check_.rays);
-  }
-
-  void all_around(uint64_t count) {
+  void all_around(const Strata& part) {
     const size_t first_eye = next_eye_;
     {
       const Timed timed(check_.times.directions_s);
-      from_eyes(sphere_directions(count, random_));
+      const auto directions = sphere_directions(part, random_);
+      rays_.resize(directions.size());
+      for (size_t i = 0; i < directions.size(); ++i) rays_[i] = {eye_of(i), directions[i]};
     }
+    next_turn();
     for (size_t i = 0; i < rays_.size(); i += run)
       missing_.looked((first_eye + i / run) % eyes_.size(), std::min(run, rays_.size() - i));
     shoot([&](size_t ray, MissingFinder::Verdict verdict) {
@@ -114,35 +108,30 @@ class Shooter {
     });
   }
 
-  void aim(const Targets& targets, uint64_t count) {
+  void aim(const Targets& targets, const Strata& part) {
+    if (part.size() == 0) return;
     {
       const Timed timed(check_.times.directions_s);
-      const auto points = targets.points(count / 2, random_);
+      const auto points = targets.points(part, random_);
       rays_.resize(points.size());
-      for (size_t i = 0; i < points.size(); ++i) {
-        const glm::vec3& eye = eyes_[(next_eye_ + i / run) % eyes_.size()];
-        rays_[i] = {eye, direction_to(points[i], eye)};
-      }
-      next_eye_ = (next_eye_ + (points.size() + run - 1) / run) % eyes_.size();
+      for (size_t i = 0; i < points.size(); ++i) rays_[i] = {eye_of(i), direction_to(points[i], eye_of(i))};
     }
+    next_turn();
     shoot([](size_t, MissingFinder::Verdict) {});
   }
 
-  void past_borders(uint64_t count) {
+  // Each eye in turn looks along `run` rays.
+  const glm::vec3& eye_of(size_t ray) const { return eyes_[(next_eye_ + ray / run) % eyes_.size()]; }
+  void next_turn() { next_eye_ = (next_eye_ + (rays_.size() + run - 1) / run) % eyes_.size(); }
+
+  void past_borders(const Strata& part) {
     {
       const Timed timed(check_.times.directions_s);
-      borders_.aim(count, eyes_, random_, rays_);
+      borders_.aim(part, eyes_, random_, rays_);
     }
     shoot([](size_t, MissingFinder::Verdict) {});
     const Timed timed(check_.times.directions_s);
     borders_.learn(rays_, hits_, random_);
-  }
-
-  void from_eyes(const std::vector<glm::vec3>& directions) {
-    rays_.resize(directions.size());
-    for (size_t i = 0; i < directions.size(); ++i)
-      rays_[i] = {eyes_[(next_eye_ + i / run) % eyes_.size()], directions[i]};
-    next_eye_ = (next_eye_ + (directions.size() + run - 1) / run) % eyes_.size();
   }
 
   // missed(ray, verdict) is told of hits on what the row does not draw.
@@ -217,7 +206,6 @@ class Shooter {
   Targets hidden_, unmet_;
   Borders borders_;
   MissingFinder missing_;
-  uint64_t next_unmet_ = 0;
   size_t next_eye_ = 0;
   std::vector<Ray> rays_;
   std::vector<Hit> hits_;
@@ -229,17 +217,22 @@ class Shooter {
 
 CellCheck check_cell(const CheckedCity& city, uint32_t cell, const VerifyOptions& options,
                      const RaySink& sink) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   Random random(options.seed, cell);
   const auto eyes = eye_points(city.file.city.cells[cell], std::max(1u, options.eyes_per_cell),
                                city.file.city.navigation.free, city.rays, Random(random.bits()));
   if (eyes.empty()) return {};
-  const double eyes_s = seconds_since(begin);
+  const double eyes_s = watch.seconds();
   Shooter shooter(city, cell, eyes, random.bits(), sink);
-  for (const uint64_t part : {8, 4, 2, 1}) shooter.shoot_until(options.rays_per_cell / part);
+  // What was found says where to look: at first after few rays, then as they double.
+  const int doublings = std::max(3, static_cast<int>(std::bit_width(options.rays_per_cell / first_rays)));
+  for (int left = std::min(doublings, 63); left >= 0; --left) {
+    shooter.shoot_until(options.rays_per_cell >> left);
+    if (left <= 3) shooter.note();
+  }
   CellCheck check = shooter.result();
   check.times.eyes_s = eyes_s;
-  check.times.total_s = seconds_since(begin);
+  check.times.total_s = watch.seconds();
   return check;
 }
 

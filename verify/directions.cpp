@@ -35,13 +35,13 @@ size_t pick(size_t i, size_t count, size_t size, Random& random) {
 
 }  // namespace
 
-std::vector<glm::vec3> sphere_directions(size_t count, Random& random) {
+std::vector<glm::vec3> sphere_directions(const Strata& part, Random& random) {
   std::vector<glm::vec3> directions;
-  directions.reserve(count);
-  for (size_t i = 0; i < count; ++i) {
+  directions.reserve(part.size());
+  for (size_t i = part.begin; i < part.end; ++i) {
     // The curve fills the square, and the square wraps a cylinder, on which areas are those of the sphere
     // (Archimedes).
-    const double along = (static_cast<double>(i) + random.unit()) / static_cast<double>(count);
+    const double along = (static_cast<double>(i) + random.unit()) / static_cast<double>(part.of);
     const auto code = static_cast<uint32_t>(along * 0x1p32);
     const uint64_t fine = random.bits();
     const float x =
@@ -105,13 +105,13 @@ glm::vec3 Targets::point(uint32_t triangle, Random& random) const {
   return a * (1 - root) + b * (root * (1 - side)) + c * (root * side);
 }
 
-std::vector<glm::vec3> Targets::points(size_t count, Random& random) const {
+std::vector<glm::vec3> Targets::points(const Strata& part, Random& random) const {
   std::vector<glm::vec3> result;
-  result.reserve(2 * count);
-  for (size_t i = 0; i < count; ++i)
-    result.push_back(point(triangles_[pick(i, count, triangles_.size(), random)], random));
-  for (size_t i = 0; i < count; ++i) {
-    const size_t object = pick(i, count, object_begin_.size() - 1, random);
+  result.reserve(2 * part.size());
+  for (size_t i = part.begin; i < part.end; ++i)
+    result.push_back(point(triangles_[pick(i, part.of, triangles_.size(), random)], random));
+  for (size_t i = part.begin; i < part.end; ++i) {
+    const size_t object = pick(i, part.of, object_begin_.size() - 1, random);
     const uint32_t begin = object_begin_[object], end = object_begin_[object + 1];
     result.push_back(point(triangles_[begin + random.below(end - begin)], random));
   }

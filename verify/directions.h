@@ -11,10 +11,20 @@
 
 namespace veduta {
 
-/// `count` unit vectors, uniform over the sphere: one at a random place of each of `count` strata of equal
-/// solid angle, along a Morton curve, so that neighbours in the result lie close together. Solid angles are
-/// estimated from these alone.
-std::vector<glm::vec3> sphere_directions(size_t count, Random& random);
+/// Numbers begin to end - 1 of `of`.
+struct Strata {
+  size_t begin = 0, end = 0, of = 0;
+
+  size_t size() const { return end - begin; }
+};
+
+/// Unit vectors uniform over the sphere, one at a random place of each of `part.of` strata of equal solid
+/// angle, of those in the part. The strata follow a Morton curve, so neighbours in the result lie close
+/// together. Solid angles are estimated from these alone.
+std::vector<glm::vec3> sphere_directions(const Strata& part, Random& random);
+inline std::vector<glm::vec3> sphere_directions(size_t count, Random& random) {
+  return sphere_directions({0, count, count}, random);
+}
 
 /// The unit vector from the eye to a point; upwards where they are the same point.
 glm::vec3 direction_to(const glm::vec3& point, const glm::vec3& eye);
@@ -34,11 +44,11 @@ class Targets {
   Targets(const Scene& scene, const std::vector<uint8_t>& left_out, const std::vector<uint32_t>& order);
   bool empty() const { return triangles_.empty(); }
 
-  /// `count` points, one in each of `count` equal parts of the targets, and after them as many, each of a
-  /// random target of an object in each of `count` equal parts of the objects (a tower of 12 triangles is not
-  /// lost beside a tree of 10,000). Half of the points anywhere on the triangle, half by a corner: what shows
-  /// first over an occluder or past it is a corner.
-  std::vector<glm::vec3> points(size_t count, Random& random) const;
+  /// Twice `part.size()` points: one in each of `part.of` equal parts of the targets, of those in the part,
+  /// and one of a random target of an object in each of `part.of` equal parts of the objects (a tower of 12
+  /// triangles is not lost beside a tree of 10,000). Half of the points anywhere on the triangle, half by a
+  /// corner: what shows first over an occluder or past it is a corner.
+  std::vector<glm::vec3> points(const Strata& part, Random& random) const;
 
  private:
   glm::vec3 point(uint32_t triangle, Random& random) const;

@@ -37,31 +37,27 @@ nlohmann::ordered_json as_json(const FalseInvisible& example, const PvsFile& fil
           {"hit_m", as_array(example.hit)}};
 }
 
-// "1.71x, 1.66x, 1.61x, 1.58x"
-std::string as_text(const std::vector<Convergence>& parts, double Convergence::*overestimate) {
-  std::string text;
+// "in objects still falls: 1.71x, 1.66x, 1.61x, 1.58x"; settled where the last doubling moved it by under 1 %
+std::string as_text(const std::vector<Convergence>& parts, const char* what,
+                    double Convergence::*overestimate) {
+  const double last = parts.back().*overestimate, before = parts[parts.size() - 2].*overestimate;
+  std::string text = fmt::format("in {} {}: ", what, before > 1.01 * last ? "still falls" : "has settled");
   for (const Convergence& part : parts)
-    text += fmt::format("{}{:.2f}x", text.empty() ? "" : ", ", part.*overestimate);
+    text += fmt::format("{}{:.2f}x", &part == &parts.front() ? "" : ", ", part.*overestimate);
   return text;
 }
 
-// "2 million", "40,000" without the comma
 std::string as_count(uint64_t rays) {
-  return rays >= 1'000'000 ? fmt::format("{:.3g} million", static_cast<double>(rays) / 1e6)
-                           : fmt::format("{}", rays);
+  return rays >= 100'000 ? fmt::format("{:.3g} million", static_cast<double>(rays) / 1e6)
+                         : fmt::format("{}", rays);
 }
 
 std::string describe(const std::vector<Convergence>& parts) {
   if (parts.size() < 2) return {};
-  const Convergence &last = parts.back(), &half = parts[parts.size() - 2];
-  // By the last doubling of the rays.
-  const bool falls = half.overestimate_objects - last.overestimate_objects > 0.01 * last.overestimate_objects;
-  return fmt::format("as rays double   {}: {} in objects, {} in triangles, from {} to {} rays a cell\n",
-                     falls ? "the over-estimate still falls"
-                           : "the over-estimate has settled (the last doubling moved it by under 1 %)",
-                     as_text(parts, &Convergence::overestimate_objects),
-                     as_text(parts, &Convergence::overestimate_triangles),
-                     as_count(parts.front().rays_per_cell), as_count(last.rays_per_cell));
+  return fmt::format("as rays double   from {} to {} a cell, the over-estimate {}; {}\n",
+                     as_count(parts.front().rays_per_cell), as_count(parts.back().rays_per_cell),
+                     as_text(parts, "objects", &Convergence::overestimate_objects),
+                     as_text(parts, "triangles", &Convergence::overestimate_triangles));
 }
 
 }  // namespace

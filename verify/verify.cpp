@@ -5,13 +5,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <chrono>
 #include <glm/geometric.hpp>
 #include <mutex>
 #include <numeric>
 
 #include "scene/random.h"
 #include "verify/cell_check.h"
+#include "verify/stopwatch.h"
 
 namespace veduta {
 namespace {
@@ -166,9 +166,9 @@ std::vector<Convergence> convergence(const std::vector<CellCheck>& checks) {
 
 VerifyReport verify(const PvsFile& file, const VerifyOptions& options,
                     const std::function<void(uint32_t done, uint32_t total)>& progress) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const CheckedCity city(file);
-  const double set_up_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const double set_up_s = watch.seconds();
   const std::vector<uint32_t> cells = sample_cells(file.city.cells.size(), options.cells, options.seed);
   std::vector<CellCheck> checks(cells.size());
   std::mutex mutex;
@@ -185,7 +185,7 @@ VerifyReport verify(const PvsFile& file, const VerifyOptions& options,
   report.convergence = convergence(checks);
   report.narrow_gap_limit_m = city.narrow_gap_limit_m;
   report.times.set_up_s = set_up_s, report.times.total_s += set_up_s;
-  report.elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  report.elapsed_s = watch.seconds();
   report.rays_per_second = ratio(static_cast<double>(report.rays), report.elapsed_s);
   return report;
 }

@@ -41,7 +41,8 @@ struct Stage {
   }
   std::vector<Ray> look_past_borders(size_t count) {
     std::vector<Ray> rays;
-    borders.aim(count, eyes, random, rays);
+    borders.take_up();
+    borders.aim({0, count, count}, eyes, random, rays);
     const auto hits = shoot(rays);
     see(rays, hits);
     borders.learn(rays, hits, random);
@@ -72,7 +73,7 @@ TEST(Borders, LeadIntoASlitThatUniformRaysMiss) {
   EXPECT_FALSE(uniform.seen(2)) << "the slit covers 1e-5 of what an eye sees";
   guided.look_around(1000);
   EXPECT_FALSE(guided.seen(2));
-  for (int round = 0; round < 8 && !guided.seen(2); ++round) guided.look_past_borders(500);
+  for (int round = 0; round < 16 && !guided.seen(2); ++round) guided.look_past_borders(1000);
   EXPECT_TRUE(guided.seen(2));
 }
 

@@ -40,7 +40,8 @@ TEST(Directions, AimedRaysMeetEveryTargetOfAnOpenScene) {
   ASSERT_FALSE(targets.empty());
   const glm::vec3 eye{2, 0, 3};
   std::vector<glm::vec3> directions;
-  for (const glm::vec3& point : targets.points(1000, random)) directions.push_back(direction_to(point, eye));
+  for (const glm::vec3& point : targets.points({0, 1000, 1000}, random))
+    directions.push_back(direction_to(point, eye));
   ASSERT_EQ(directions.size(), 2000u);
   std::vector<Hit> hits(directions.size());
   RayScene(scene).first_hits(eye, directions, hits);

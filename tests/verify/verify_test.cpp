@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "scene/ray_scene.h"
 #include "tests/verify/toy_city.h"
@@ -283,6 +284,51 @@ TEST(Verify, OverestimateFallsAsRaysDouble) {
   EXPECT_EQ(report.convergence[3].overestimate_objects, report.overestimate_objects);
   EXPECT_EQ(report.convergence[3].overestimate_buildings, report.overestimate_buildings);
   EXPECT_EQ(report.convergence[3].overestimate_triangles, report.overestimate_triangles);
+}
+
+TEST(Verify, SaysHowTheOverestimateFalls) {
+  const PvsFile file = nine_cells();
+  VerifyReport report = verify(file, few);
+  report.convergence = {{500'000, 1.712, 1.8, 5}, {1'000'000, 1.66, 1.7, 4.5}, {4'000'000, 1.579, 1.6, 4.49}};
+  EXPECT_NE(describe(report, file)
+                .find("as rays double   from 0.5 million to 4 million a cell, the over-estimate "
+                      "in objects still falls: 1.71x, 1.66x, 1.58x; in triangles has settled: "
+                      "5.00x, 4.50x, 4.49x\n"),
+            std::string::npos);
+  const auto json = nlohmann::json::parse(describe_json(report, file));
+  ASSERT_EQ(json["convergence"].size(), 3u);
+  EXPECT_EQ(json["convergence"][2]["rays_per_cell"], 4'000'000);
+  EXPECT_EQ(json["convergence"][2]["overestimate_objects"], 1.579);
+  EXPECT_EQ(json["convergence"][1]["overestimate_buildings"], 1.7);
+  EXPECT_EQ(json["convergence"][1]["overestimate_triangles"], 4.5);
+  for (const char* part : {"set_up", "eyes", "directions", "tracing", "settling", "total"})
+    EXPECT_TRUE(json["times_s"].contains(part)) << part;
+}
+
+TEST(Verify, EveryLineOfTheReport) {
+  PvsFile file = nine_cells();
+  file.overestimate.assign(9, 1.5f);
+  std::istringstream lines(describe(verify(file, few), file));
+  for (const char* begin :
+       {"verified         8 of 9 cells (0 without an eye point), 320000 rays, ",
+        "false invisible  8 objects, ", "narrow gaps      0 objects, ", "over-estimate    ",
+        "as rays double   from 5000 to 40000 a cell, ", "of that, format  ",
+        "certified        in objects: median cell 1.50x", "a cell lists     2.0 objects, ",
+        "slices draw      100.0 %", "What rays saw is a lower bound"}) {
+    std::string line;
+    ASSERT_TRUE(std::getline(lines, line));
+    EXPECT_TRUE(line.starts_with(begin)) << line;
+  }
+  for (int i = 0; i < 8; ++i) {
+    std::string line;
+    ASSERT_TRUE(std::getline(lines, line));
+    EXPECT_TRUE(line.starts_with("FALSE INVISIBLE  cell ") && line.find("\"tower\", triangle ") != line.npos)
+        << line;
+  }
+  std::string line;
+  ASSERT_TRUE(std::getline(lines, line));
+  EXPECT_EQ(line, "FAILED: rays met triangles that their rows do not draw");
+  EXPECT_FALSE(std::getline(lines, line));
 }
 
 TEST(Verify, SameReportForAnyNumberOfThreads) {
