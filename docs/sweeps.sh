@@ -13,14 +13,16 @@ linz=$(realpath -m ../shared/data/linz/linz_core_8tiles.tar.xz)
 mkdir -p out/linz
 
 for city in "${cities[@]}"; do
+  grid=grid
   case $city in
     houses) "$bin/veduta" city configs/city/plain_houses.toml -o out/plain_houses.city.json >/dev/null ;;
     linz)
       [[ -e $linz ]] || { echo "skipped: Linz: $linz is not here" >&2; continue; }
       ln -sf "$linz" out/linz/
+      grid=grid_short
       ;;
   esac
-  "$bin/veduta" sweep "configs/sweep/$city.toml" --grid configs/sweep/grid.toml --cells "${CELLS:-16}" --rays "${RAYS:-1000000}" --gpu software
+  "$bin/veduta" sweep "configs/sweep/$city.toml" --grid configs/sweep/$grid.toml --cells "${CELLS:-16}" --rays "${RAYS:-1000000}" --gpu software
   for chart in buildings triangles; do
     cp "out/sweep/$city/$chart.svg" "docs/sweep_${city}_$chart.svg"
   done
