@@ -11,12 +11,27 @@
 
 namespace veduta {
 
+namespace {
+
+/// How far beside its projection a box is asked for, in pixels. T3 with sigma = 1/64 holds for a ray up to
+/// 1/128 of a pixel beside the pixel whose middle an occluder covers, rounding of its vertices included: so
+/// it is enough to ask the pixels that the projection touches, and a little more for the rounding of that. A
+/// renderer that rounds vertices coarser than sigma allows is given the pixel beside, too.
+float outward_pixels() {
+  GLint subpixel_bits = 0;
+  glGetIntegerv(GL_SUBPIXEL_BITS, &subpixel_bits);
+  return subpixel_bits >= 6 ? 1.0f / 64 : 1.0f;
+}
+
+}  // namespace
+
 BoxTests::Test::Test(const char* kind)
     : program(Program::compute(std::string(shader::box_test) + kind)),
       depth(program.uniform("depth")),
       eye(program.uniform("eye")),
       half_extent(program.uniform("half_extent")),
       near(program.uniform("near")),
+      outward(program.uniform("outward")),
       resolution(program.uniform("resolution")),
       rows(program.uniform("rows")),
       strip_width(program.uniform("strip_width")),
@@ -28,6 +43,7 @@ void BoxTests::Test::run(const TestView& view, uint32_t first_question, uint32_t
   glUniform3fv(eye, 1, glm::value_ptr(view.eye));
   glUniform3fv(half_extent, 1, glm::value_ptr(view.half_extent_m));
   glUniform1f(near, view.near_m);
+  glUniform1f(outward, outward_pixels());
   glUniform1i(resolution, view.resolution);
   glUniform2iv(rows, face_count * FacePanes::strips, view.rows[0][0].data());
   glUniform1i(strip_width, FacePanes::strip_width(view.resolution));

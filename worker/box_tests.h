@@ -36,7 +36,7 @@ class BoxTests {
     void run(const TestView& view, uint32_t first, uint32_t count) const;
 
     Program program;
-    GLint depth, eye, half_extent, near, resolution, rows, strip_width, first, count;
+    GLint depth, eye, half_extent, near, outward, resolution, rows, strip_width, first, count;
   };
 
   Test objects_, slices_;

@@ -132,8 +132,9 @@ void CellBracket::ask(Node& node, QuestionBatch& batch) {
       batch.objects.push_back(item.object);
     }
     // Of what is certain, slices are asked once, or again where they look small: what looks large would have
-    // most of the picture drawn for it. Of what is in doubt, wherever it may turn out to be seen.
-    if (node.parts >= slice_parts_ || node.smallest) ask_slices(item, batch);
+    // most of the picture drawn for it. Of what is in doubt, wherever it may turn out to be seen. Where the
+    // row is close enough, the next parts are small enough for slices, too.
+    if (node.parts >= slice_parts_ || close_enough_ || node.smallest) ask_slices(item, batch);
   }
   part.objects = static_cast<uint32_t>(batch.objects.size()) - part.first_object;
   part.slices = static_cast<uint32_t>(batch.slices.size()) - part.first_slice;
@@ -167,8 +168,8 @@ void CellBracket::take_node(const Node& node, std::span<const uint32_t> answers,
             static_cast<uint8_t>(std::max<uint32_t>(heights[s], answers[first_slice + item.first_slice + s]));
       if (all_hidden(item)) continue;
     }
-    const bool enough = close_enough_ || (certain(item.object) && !looks_small(item.object, node.center));
-    if (node.smallest || (node.parts >= slice_parts_ && enough))
+    const bool enough = certain(item.object) && !looks_small(item.object, node.center);
+    if (node.smallest || close_enough_ || (node.parts >= slice_parts_ && enough))
       settle(item);
     else
       kept_.push_back(item);

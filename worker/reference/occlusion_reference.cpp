@@ -33,8 +33,9 @@ glm::dvec3 area_vector(const std::vector<glm::dvec3>& polygon) {
 }  // namespace
 
 Panorama::Panorama(const std::vector<OccluderRing>& rings, int resolution, const glm::dvec3& eye,
-                   double near_m)
+                   double near_m, double slack_pixels)
     : size_(resolution),
+      slack_(1e-12 + 2 * slack_pixels / resolution),
       eye_(eye),
       near_m_(near_m),
       depth_(static_cast<size_t>(face_count) * resolution * resolution, infinity) {
@@ -75,7 +76,7 @@ void Panorama::draw(int face, const std::vector<glm::dvec3>& polygon, double dep
     for (int x = std::max(pixel(lower.x) - 1, 0); x <= std::min(pixel(upper.x) + 1, size_ - 1); ++x) {
       const glm::dvec3 direction((2 * x + 1.0) / size_ - 1, (2 * y + 1.0) / size_ - 1, 1);
       const bool meets = std::all_of(sides.begin(), sides.end(), [&](const glm::dvec3& side) {
-        return !(glm::dot(side, direction) > 1e-12);
+        return !(glm::dot(side, direction) > slack_);
       });
       const double depth = away / glm::dot(normal, direction);
       double& nearest = depth_[(static_cast<size_t>(face) * size_ + y) * size_ + x];
@@ -93,16 +94,16 @@ bool Panorama::hidden(const Box& box, const glm::dvec3& half_extent_m, const Str
     const double nearest = std::max({b.lower.x, -b.upper.x, b.lower.y, -b.upper.y, b.lower.z, 0.0});
     if (nearest > b.upper.z) continue;
     if (face == 5 || nearest < near_m_) return false;
-    const auto pixel = [&](double ratio) {
-      return static_cast<int>(std::floor((std::clamp(ratio, -1.0, 1.0) + 1) * 0.5 * size_));
+    const auto pixel = [&](double ratio, double out) {
+      return static_cast<int>(std::floor((std::clamp(ratio, -1.0, 1.0) + 1) * 0.5 * size_ + out));
     };
-    const int x0 = pixel(b.lower.x / (b.lower.x < 0 ? nearest : b.upper.z)),
-              x1 = pixel(b.upper.x / (b.upper.x > 0 ? nearest : b.upper.z));
-    const int y0 = pixel(b.lower.y / (b.lower.y < 0 ? nearest : b.upper.z)),
-              y1 = pixel(b.upper.y / (b.upper.y > 0 ? nearest : b.upper.z));
-    const int out = strictness.outward_pixels;
-    for (int y = std::max(y0 - out, 0); y <= std::min(y1 + out, size_ - 1); ++y) {
-      for (int x = std::max(x0 - out, 0); x <= std::min(x1 + out, size_ - 1); ++x) {
+    const double out = strictness.outward_pixels;
+    const int x0 = pixel(b.lower.x / (b.lower.x < 0 ? nearest : b.upper.z), -out),
+              x1 = pixel(b.upper.x / (b.upper.x > 0 ? nearest : b.upper.z), out);
+    const int y0 = pixel(b.lower.y / (b.lower.y < 0 ? nearest : b.upper.z), -out),
+              y1 = pixel(b.upper.y / (b.upper.y > 0 ? nearest : b.upper.z), out);
+    for (int y = std::max(y0, 0); y <= std::min(y1, size_ - 1); ++y) {
+      for (int x = std::max(x0, 0); x <= std::min(x1, size_ - 1); ++x) {
         if (!(depth_m(face, x, y) < nearest * (1 - strictness.nearer_by))) return false;
       }
     }

@@ -8,15 +8,18 @@
 
 namespace veduta::reference {
 
-/// How strictly `hidden` asks. The product: one pixel outward and depths nearer by 1e-5.
+/// How strictly `hidden` asks. The product: 1/64 of a pixel outward and depths nearer by 1e-5.
 struct Strictness {
-  int outward_pixels = 1;
+  double outward_pixels = 1.0 / 64;
   double nearer_by = 1e-5;
 };
 
 class Panorama {
  public:
-  Panorama(const std::vector<OccluderRing>& rings, int resolution, const glm::dvec3& eye, double near_m);
+  /// \param slack_pixels a pixel whose middle lies so far beside an occluder is covered, too: renderers round
+  /// vertices, and T3's sigma allows for 1/128.
+  Panorama(const std::vector<OccluderRing>& rings, int resolution, const glm::dvec3& eye, double near_m,
+           double slack_pixels = 0);
 
   /// Planar depth at which the ray through the pixel's centre meets an occluder, m; infinity for none. Faces
   /// as cube_face.h.
@@ -31,6 +34,7 @@ class Panorama {
   void draw(int face, const std::vector<glm::dvec3>& polygon, double depth_limit_m);
 
   int size_;
+  double slack_;
   glm::dvec3 eye_;
   double near_m_;
   std::vector<double> depth_;
