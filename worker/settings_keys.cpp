@@ -176,7 +176,8 @@ const std::vector<Key>& settings_keys() {
              "walk: cells at eye height above ground; fly: cells over a range of heights above ground",
              [](Settings& s) -> std::string& { return s.navigation.mode; }),
       real("navigation.seed_size", 0.01, 10, "m",
-           "a gap of two seeds stays open, a narrower one may close; a voxel is four seeds",
+           "a gap of two seeds stays open (of three, where it is turned against the axes), a narrower one "
+           "may close; a voxel is four seeds",
            [](Settings& s) -> double& { return s.navigation.seed_size_m; }),
       real("navigation.eye_height", 0.1, 100, "m", "walk: of the eye above ground, +- 0.25 m",
            [](Settings& s) -> double& { return s.navigation.eye_height_m; }),
