@@ -50,7 +50,7 @@ cities() {
 growth() {
   local -A blocks=([1k]='6, 14' [6k]='16, 32' [24k]='32, 64' [100k]='65, 128') # of twelve houses each
   for size in ${SIZES:-1k 6k 24k 100k}; do
-    sed "s/^blocks = .*/blocks = [${blocks[$size]}]/; s|\"rules/|\"$PWD/configs/city/rules/|" configs/city/plain_houses.toml >"$out/plan_$size.toml"
+    sed "s|^blocks = .*|blocks = [${blocks[$size]}]|; s|\"box.xml|\"$PWD/configs/sweep/box.xml|" configs/sweep/plain_houses.toml >"$out/plan_$size.toml"
     "$bin/veduta" city "$out/plan_$size.toml" -o "$out/houses_$size.city.json" >/dev/null 2>&1
     config "$out/houses_$size.city.json" 0.25 5.0 "$(middle "$out/houses_$size.city.json")" >"$out/houses_$size.toml"
     bench "houses" "houses_$size"

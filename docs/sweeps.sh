@@ -15,7 +15,7 @@ mkdir -p out/linz
 for city in "${cities[@]}"; do
   grid=grid
   case $city in
-    houses) "$bin/veduta" city configs/city/plain_houses.toml -o out/plain_houses.city.json >/dev/null ;;
+    houses) "$bin/veduta" city configs/sweep/plain_houses.toml -o out/plain_houses.city.json >/dev/null ;;
     linz)
       [[ -e $linz ]] || { echo "skipped: Linz: $linz is not here" >&2; continue; }
       ln -sf "$linz" out/linz/

@@ -48,45 +48,49 @@ CellReference::CellReference(const OcclusionInput& input) : input_(input) {
 std::vector<Witness> CellReference::wrongly_hidden(const CellOcclusion& answer,
                                                    std::span<const glm::vec3> eyes) const {
   std::vector<Witness> witnesses;
+  const SliceBoxes& slices = input_.slices;
+  const auto seen_from = [&](const glm::vec3& eye, const Box& box, glm::dvec3& seen_point) {
+    return !box.empty() && any_of_lattice(box.lower, box.upper, 3, [&](const glm::dvec3& point) {
+      seen_point = point;
+      return !solid_.meet(eye, point);
+    });
+  };
+  const auto slice_box = [&](uint32_t s, uint32_t height) -> const Box& {
+    return slices.boxes[slices.slices[s].first_box + height - 1];
+  };
+  // Are all slices along one axis hidden from the eye to their tops? Then all of the object is, whatever the
+  // boxes along the other axis reach beyond it.
+  const auto hidden_by_slices = [&](const glm::vec3& eye, uint32_t o) {
+    const uint32_t begin = slices.object_slice_begin[o], end = slices.object_slice_begin[o + 1];
+    const uint32_t middle = begin == end ? end : begin + input_.city.slices[o].x;
+    const auto all_hidden = [&](uint32_t first, uint32_t last) {
+      glm::dvec3 ignored;
+      for (uint32_t s = first; s < last; ++s)
+        if (seen_from(eye, slice_box(s, slices.slices[s].heights), ignored)) return false;
+      return first < last;
+    };
+    return all_hidden(begin, middle) || all_hidden(middle, end);
+  };
   const auto look = [&](uint32_t object, std::optional<uint32_t> slice,
                         const Box& box) -> std::optional<Witness> {
-    std::optional<Witness> witness;
-    if (box.empty()) return witness;
-    for (const glm::vec3& eye : eyes) {
-      const bool seen = any_of_lattice(box.lower, box.upper, 3, [&](const glm::dvec3& point) {
-        if (solid_.meet(eye, point)) return false;
-        witness = {object, slice, eye, point};
-        return true;
-      });
-      if (seen) break;
-    }
-    return witness;
-  };
-  const SliceBoxes& slices = input_.slices;
-  const auto look_at_slice = [&](uint32_t s, uint32_t height) {
-    const VerticalSlice& slice = slices.slices[s];
-    return look(slice.object, s, slices.boxes[slice.first_box + height - 1]);
+    glm::dvec3 point;
+    for (const glm::vec3& eye : eyes)
+      if (seen_from(eye, box, point) && !hidden_by_slices(eye, object))
+        return Witness{object, slice, eye, point};
+    return {};
   };
   const auto keep = [&](const std::optional<Witness>& witness) {
     if (witness) witnesses.push_back(*witness);
   };
   for (uint32_t o = 0; o < objects_.size(); ++o) {
     const uint32_t begin = slices.object_slice_begin[o], end = slices.object_slice_begin[o + 1];
-    if (answer.occlusion.visible[o] != 0) {
-      for (uint32_t s = begin; s < end; ++s)
-        if (answer.occlusion.occluded[s] > 0) keep(look_at_slice(s, answer.occlusion.occluded[s]));
+    if (answer.occlusion.visible[o] == 0) {
+      keep(look(o, {}, objects_[o]));
       continue;
     }
-    // Its box may be seen and the object hidden all the same: all of it lies in the slices along one axis.
-    const auto seen_by_slices = [&](uint32_t first, uint32_t last) {
-      for (uint32_t s = first; s < last; ++s)
-        if (look_at_slice(s, slices.slices[s].heights)) return true;
-      return first == last;
-    };
-    const uint32_t middle = begin == end ? end : begin + input_.city.slices[o].x;
-    if (const auto witness = look(o, {}, objects_[o]);
-        witness && seen_by_slices(begin, middle) && seen_by_slices(middle, end))
-      keep(witness);
+    for (uint32_t s = begin; s < end; ++s)
+      if (const uint32_t height = answer.occlusion.occluded[s]; height > 0)
+        keep(look(o, s, slice_box(s, height)));
   }
   return witnesses;
 }

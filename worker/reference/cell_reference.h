@@ -43,8 +43,9 @@ class CellReference {
   explicit CellReference(const OcclusionInput& input);
 
   /// (a) Segments from each eye to corners, middles and inner points of each box that the answer hides: of
-  /// objects (where their own box is seen, of their slices along x and along y: all of either hide them too),
-  /// and of visible objects' slices up to their occluded height. At most one witness a box.
+  /// objects, and of visible objects' slices up to their occluded height. A box that is seen is no witness
+  /// where all of the object's slices along one axis are hidden from that eye: so is the object, then, and
+  /// what is seen of the box is empty. At most one witness a box.
   /// \param eyes points of the cell at which a viewer can be, m.
   std::vector<Witness> wrongly_hidden(const CellOcclusion& answer, std::span<const glm::vec3> eyes) const;
 
