@@ -98,6 +98,7 @@ class Sweep {
       }
       std::filesystem::remove_all(run.directory);
     }
+    write();  // as this version draws it, though nothing was left to measure
     return report_;
   }
 
@@ -125,6 +126,7 @@ class Sweep {
       point.failed = error.what();
     }
     point.key = key_of(grid);
+    point.cells_of_first = report_.points.empty() ? point.cells_in_all : report_.points.front().cells_in_all;
     return point;
   }
 
@@ -134,6 +136,10 @@ class Sweep {
     // One that failed before is tried again.
     std::erase_if(report_.points, [&](const SweepPoint& before) { return before.key == point.key; });
     report_.points.push_back(std::move(point));
+    write();
+  }
+
+  void write() const {
     write_file_atomically(out_ / "sweep.json", to_json(report_));
     write_file_atomically(out_ / "sweep.html", sweep_page(report_));
     write_file_atomically(out_ / "buildings.svg", chart_svg(report_, Chart::buildings));

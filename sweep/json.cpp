@@ -28,6 +28,7 @@ void each_field(Point& p, const Field& field) {
   field("bytes_per_cell", p.bytes_per_cell);
   field("cells", p.cells);
   field("cells_in_all", p.cells_in_all);
+  field("cells_of_first", p.cells_of_first);
   field("rays_per_cell", p.rays_per_cell);
   field("overestimate_objects", p.overestimate_objects);
   field("overestimate_buildings", p.overestimate_buildings);

@@ -103,7 +103,8 @@ constexpr const char* footnote = R"(<footer>
 what can be seen, so the true over-estimate is at most the one shown. <strong>Of that, format</strong>: the smallest rows of three
 bytes an object that draw all that was seen. <strong>False invisible</strong>: met by a ray, and not drawn by the row of its cell;
 solid angle as a share of the sphere. <strong>Narrow gaps</strong>: seen through nothing but gaps narrower than two seeds, which a
-bake may take for closed. <strong>Pareto front</strong> (bold): no other point is tighter and as fast, or as tight and more than 5 % faster.</p>
+bake may take for closed. <strong>Pareto front</strong> (bold): no other point is more than 1 % tighter and as fast, or as tight and more than 5 % faster.
+Cells of another size are drawn and judged by the time of as many as come to one cell of the first point.</p>
 </footer>
 )";
 

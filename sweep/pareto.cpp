@@ -11,8 +11,9 @@
 namespace veduta {
 namespace {
 
-/// Times of the same work differ by so much from run to run.
-constexpr double time_noise = 0.05;
+/// Times of the same work differ by so much from run to run, and over-estimates of nearly the same rows by
+/// what rays happen to meet.
+constexpr double time_noise = 0.05, overestimate_noise = 0.01;
 
 /// An over-estimate of 0 says that nothing was seen: no figure.
 bool can_be_chosen(const SweepPoint& point, double overestimate) {
@@ -46,7 +47,9 @@ bool judged_by_processor(const SweepPoint& point) {
 }
 
 double judged_ms(const SweepPoint& point) {
-  return judged_by_processor(point) ? point.cell_core_ms : point.cell_ms;
+  const double ms = judged_by_processor(point) ? point.cell_core_ms : point.cell_ms;
+  if (point.cells_of_first == 0) return ms;
+  return ms * static_cast<double>(point.cells_in_all) / static_cast<double>(point.cells_of_first);
 }
 
 std::string point_name(const SweepPoint& point) {
@@ -65,7 +68,7 @@ std::vector<size_t> pareto_front(const SweepReport& report, double SweepPoint::*
                    [&](size_t a, size_t b) { return judged_ms(points[a]) < judged_ms(points[b]); });
   const auto beats = [&](const SweepPoint& other, const SweepPoint& point) {
     const double ms = judged_ms(point), bound = point.*overestimate;
-    return (other.*overestimate < bound && judged_ms(other) <= ms) ||
+    return (other.*overestimate < (1 - overestimate_noise) * bound && judged_ms(other) <= ms) ||
            (other.*overestimate <= bound && judged_ms(other) < (1 - time_noise) * ms);
   };
   std::vector<size_t> front;

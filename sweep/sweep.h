@@ -28,6 +28,7 @@ struct SweepPoint {
   double bytes_per_cell = 0;  ///< of rows, as stored
   uint32_t cells = 0;         ///< sampled; as near to those of the other points as its lattice has them
   uint64_t cells_in_all = 0;
+  uint64_t cells_of_first = 0;  ///< cells_in_all of the first point; 0: the same
   // of the verification:
   uint64_t rays_per_cell = 0;
   double overestimate_objects = 0, overestimate_buildings = 0, overestimate_triangles = 0;
@@ -55,7 +56,8 @@ struct SweepReport {
 /// Is the renderer software? Then a point is judged by the time of processors, which other work on the
 /// machine hardly changes, else by the clock.
 bool judged_by_processor(const SweepPoint& point);
-/// That time, ms a cell.
+/// That time, ms a cell. Of cells of another size it is the time of as many as come to a cell of the first
+/// point: four that are half as wide.
 double judged_ms(const SweepPoint& point);
 
 /// "default", or "subdivide 4, method zoom": the changed keys without their tables, on one line.
@@ -66,7 +68,7 @@ std::string to_json(const SweepReport& report);
 SweepReport sweep_from_json(const std::string& text, const std::string& name);
 
 /// Numbers of the points worth having, by `judged_ms` and the given over-estimate, fastest first: no other is
-/// tighter and as fast, or as tight and faster by more than times differ from run to run (5 %). Points that
+/// tighter by more than 1 % and as fast, or as tight and faster by more than 5 %: less is noise. Points that
 /// failed or have false invisible triangles are never among them.
 std::vector<size_t> pareto_front(const SweepReport& report, double SweepPoint::*overestimate);
 

@@ -32,6 +32,9 @@ TEST(JudgedTime, OfProcessorsForSoftware) {
   }
   point.renderer = "NVIDIA H100 PCIe/PCIe/SSE2";
   EXPECT_EQ(judged_ms(point), 40);
+  // Four cells half as wide come to one of the first point.
+  point.cells_of_first = 300, point.cells_in_all = 1200;
+  EXPECT_EQ(judged_ms(point), 160);
 }
 
 TEST(ParetoFront, KnownAnswer) {
@@ -55,9 +58,10 @@ TEST(ParetoFront, KnownAnswer) {
 
 TEST(ParetoFront, EqualRowsAreNotToldApartByNoise) {
   SweepReport report;
-  for (const auto& [ms, over] : {std::pair(100.0, 1.5), {104.0, 1.5}, {106.0, 1.5}, {103.0, 1.6}})
+  for (const auto& [ms, over] :
+       {std::pair(100.0, 1.5), {104.0, 1.5}, {106.0, 1.5}, {103.0, 1.6}, {104.0, 1.49}})
     report.points.push_back(test::made_up_point({}, ms, over));
-  EXPECT_EQ(pareto_front(report, buildings), (std::vector<size_t>{0, 1}));
+  EXPECT_EQ(pareto_front(report, buildings), (std::vector<size_t>{0, 1, 4}));
 }
 
 TEST(ParetoFront, IsWhatNoOtherBeats) {
