@@ -14,7 +14,6 @@
 #include "pvs/pvs_file.h"
 #include "pvs/shard.h"
 #include "scene/error.h"
-#include "scene/random.h"
 
 namespace veduta {
 namespace {
@@ -26,14 +25,9 @@ using Places = std::vector<std::array<double, 3>>;
 constexpr double open_timeout_s = 600, cell_timeout_s = 1800;  // the thesis's method takes minutes a cell
 
 Places choose_places(const City& city, const SweepOptions& options) {
-  std::vector<uint32_t> numbers(city.cells.size());
-  for (uint32_t c = 0; c < numbers.size(); ++c) numbers[c] = c;
-  Random random(options.seed);
-  const size_t count = std::min<size_t>(options.cells, numbers.size());
-  for (size_t i = 0; i < count; ++i) std::swap(numbers[i], numbers[i + random.below(numbers.size() - i)]);
   Places places;
-  for (size_t i = 0; i < count; ++i) {
-    const glm::dvec3 middle(city.cells[numbers[i]].center());
+  for (const uint32_t cell : sample_cells(city.cells.size(), options.cells, options.seed)) {
+    const glm::dvec3 middle(city.cells[cell].center());
     const auto& o = city.scene.origin;
     places.push_back({middle.x + o[0], middle.y + o[1], middle.z + o[2]});
   }

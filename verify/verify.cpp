@@ -18,18 +18,6 @@ namespace {
 
 constexpr size_t example_limit = 16;
 
-// `count` distinct cells, ascending: the first steps of a Fisher-Yates shuffle.
-std::vector<uint32_t> sample_cells(size_t cells, size_t count, uint64_t seed) {
-  std::vector<uint32_t> numbers(cells);
-  std::iota(numbers.begin(), numbers.end(), 0);
-  count = std::min(count, cells);
-  Random random(seed);
-  for (size_t i = 0; i < count; ++i) std::swap(numbers[i], numbers[i + random.below(cells - i)]);
-  numbers.resize(count);
-  std::sort(numbers.begin(), numbers.end());
-  return numbers;
-}
-
 double ratio(double over, double under) {
   return under > 0 ? over / under : 0;
 }
@@ -163,6 +151,17 @@ std::vector<Convergence> convergence(const std::vector<CellCheck>& checks) {
 }
 
 }  // namespace
+
+std::vector<uint32_t> sample_cells(size_t cells, size_t count, uint64_t seed) {
+  std::vector<uint32_t> numbers(cells);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  count = std::min(count, cells);
+  Random random(seed);
+  for (size_t i = 0; i < count; ++i) std::swap(numbers[i], numbers[i + random.below(cells - i)]);
+  numbers.resize(count);
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
+}
 
 VerifyReport verify(const PvsFile& file, const VerifyOptions& options,
                     const std::function<void(uint32_t done, uint32_t total)>& progress) {

@@ -88,6 +88,9 @@ struct VerifyReport {
   bool passed() const { return rays > 0 && false_invisible_objects == 0 && false_invisible_triangles == 0; }
 };
 
+/// `count` distinct cells of so many, all when there are fewer; ascending. The same for a seed.
+std::vector<uint32_t> sample_cells(size_t cells, size_t count, uint64_t seed);
+
 /// Eye points are taken where a viewer can be: in navigable space, or within one seed of it with nothing in
 /// between. A quarter of the rays go all over the sphere, from which solid angles are estimated; the others
 /// at what the row does not draw, at what no ray has met, and past the borders of what was met. Deterministic

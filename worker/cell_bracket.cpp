@@ -133,7 +133,8 @@ void CellBracket::ask(Node& node, QuestionBatch& batch) {
     }
     // Of what is certain, slices are asked once, or again where they look small: what looks large would have
     // most of the picture drawn for it. Of what is in doubt, wherever it may turn out to be seen. Where the
-    // row is close enough, the next parts are small enough for slices, too.
+    // row is close enough, the next parts are small enough for slices, too: larger parts hide less, never
+    // more.
     if (node.parts >= slice_parts_ || close_enough_ || node.smallest) ask_slices(item, batch);
   }
   part.objects = static_cast<uint32_t>(batch.objects.size()) - part.first_object;
