@@ -8,6 +8,7 @@
 
 #include "farm/commands.h"
 #include "farm/machine.h"
+#include "farm/progress.h"
 #include "merge/merge.h"
 
 namespace veduta {
@@ -22,6 +23,11 @@ struct Options {
 int run_merge(const Options& options) {
   const auto output = options.output.empty() ? options.run.result() : options.output;
   const MergeResult result = merge_run(options.run, output, options.partial);
+  if (result.conflicts > 0)
+    say(
+        fmt::format("{}: {} second answers differ from the first, which counts; both are conservative. "
+                    "See: veduta status {} --json",
+                    output.string(), result.conflicts, options.run.directory.string()));
   if (options.json) {
     std::cout << nlohmann::json{{"file", output.string()},
                                 {"content_digest", result.content_digest},
@@ -29,6 +35,7 @@ int run_merge(const Options& options) {
                                 {"baked", result.baked},
                                 {"all_visible", result.all_visible},
                                 {"unfinished", result.unfinished},
+                                {"conflicts", result.conflicts},
                                 {"bytes", result.bytes},
                                 {"elapsed_s", result.elapsed_s}}
               << "\n";

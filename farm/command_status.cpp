@@ -27,6 +27,14 @@ bool has_ended(const RunPaths& run) {
                                 std::filesystem::exists(run.result(), ignored));
 }
 
+std::string cells_text(const Journal& journal, uint64_t total) {
+  std::string text = fmt::format("cells {}/{} ({} %), {} all visible", journal.done, total,
+                                 total ? 100 * journal.done / total : 100, journal.all_visible);
+  if (journal.conflicts > 0)
+    text += fmt::format(", {} second answers differ from the first", journal.conflicts);
+  return text;
+}
+
 /// From the journal alone: works during a bake, after it, and after one that was killed.
 int run_status(const Options& options) {
   const RunPaths& run = options.run;
@@ -52,6 +60,8 @@ int run_status(const Options& options) {
                                 {"all_visible", journal.all_visible},
                                 {"torn_bytes", journal.torn_bytes},
                                 {"duplicates", journal.duplicates},
+                                {"conflicts", journal.conflicts},
+                                {"conflict_examples", journal.conflict_examples},
                                 {"renderers", journal.renderers},
                                 {"fingerprint", fingerprint},
                                 {"holder", holder}}
@@ -60,8 +70,7 @@ int run_status(const Options& options) {
   else
     std::cout << fmt::format("{}: {}{}; {}\n", run.directory.string(), state,
                              holder.empty() ? "" : " (" + holder + ")",
-                             city ? fmt::format("cells {}/{} ({} %), {} all visible", journal.done, total,
-                                                total ? 100 * journal.done / total : 100, journal.all_visible)
+                             city          ? cells_text(journal, total)
                              : preparation ? fmt::format("not prepared yet: {}", name_of(preparation->stage))
                                            : "not prepared yet");
   if (!options.exit_code) return 0;

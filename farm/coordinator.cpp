@@ -54,7 +54,14 @@ void Coordinator::read_done_cells() {
   log_.info("journal", json{{"done", journal.done},
                             {"cells", cell_count},
                             {"torn_bytes", journal.torn_bytes},
-                            {"duplicates", journal.duplicates}});
+                            {"duplicates", journal.duplicates},
+                            {"conflicts", journal.conflicts}});
+  if (journal.conflicts > 0)
+    log_.warning(
+        "conflicting answers",
+        json{{"conflicts", journal.conflicts}, {"examples", journal.conflict_examples}},
+        fmt::format("{} second answers differ from the first, which counts; both are conservative. {}",
+                    journal.conflicts, journal.conflict_examples.front()));
   if (journal.done == 0 && journal.torn_bytes == 0) return;
   progress_.note(fmt::format(
       "continuing: {} of {} cells are done{}", journal.done, cell_count,

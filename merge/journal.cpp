@@ -37,28 +37,24 @@ class Collector {
   }
 
   void add(int32_t shard, const CellRecord& record, uint64_t offset) {
-    const std::string file = journal_.shards[static_cast<size_t>(shard)].string();
     if (record.cell >= journal_.cells.size())
       throw Error(ExitStatus::bad_input,
-                  fmt::format("{}: byte {}: cell {} of {}; the shard belongs to another city", file, offset,
-                              record.cell, journal_.cells.size()));
+                  fmt::format("{}: byte {}: cell {} of {}; the shard belongs to another city",
+                              journal_.shards[static_cast<size_t>(shard)].string(), offset, record.cell,
+                              journal_.cells.size()));
     JournalEntry& entry = journal_.cells[record.cell];
     if (entry.shard < 0) {
       ++journal_.done;
     } else if (entry.status == record.status) {
-      if (!same(entry, record))
-        throw Error(ExitStatus::bad_input,
-                    fmt::format("{}: byte {}: cell {} has another answer than in {} at byte {}; remove one "
-                                "of the two shards and "
-                                "bake again",
-                                file, offset, record.cell,
-                                journal_.shards[static_cast<size_t>(entry.shard)].string(), entry.offset));
-      ++journal_.duplicates;
+      if (same(entry, record))
+        ++journal_.duplicates;
+      else
+        note_conflict(entry, shard, record, offset);
       return;
     } else if (entry.status < record.status) {
       return;  // what is there says more
     }
-    entry = {shard, offset, record.status};
+    entry = {shard, record.status, offset};
   }
 
  private:
@@ -68,6 +64,18 @@ class Collector {
            pool_.read(entry.shard, entry.offset).same_answer(record);
   }
 
+  void note_conflict(const JournalEntry& first, int32_t shard, const CellRecord& record, uint64_t offset) {
+    ++journal_.conflicts;
+    if (journal_.conflict_examples.size() >= conflict_example_limit) return;
+    const auto name = [&](int32_t index) {
+      return journal_.shards[static_cast<size_t>(index)].filename().string();
+    };
+    journal_.conflict_examples.push_back(fmt::format("cell {}: {} at byte {} counts, {} at byte {} differs",
+                                                     record.cell, name(first.shard), first.offset,
+                                                     name(shard), offset));
+  }
+
+  static constexpr size_t conflict_example_limit = 8;
   Journal& journal_;
   RecordPool pool_;
 };

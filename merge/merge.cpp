@@ -64,6 +64,7 @@ MergeResult merge(const RunPaths& run, const std::filesystem::path& output, bool
   result.all_visible = journal.all_visible;
   result.unfinished = cell_count - journal.done;
   result.baked = journal.done - journal.all_visible;
+  result.conflicts = journal.conflicts;
   if (result.unfinished > 0 && !partial)
     throw Error(
         ExitStatus::stopped_early,
@@ -108,13 +109,13 @@ MergeResult merge_run(const RunPaths& run, const std::filesystem::path& output, 
   const std::string text = run_in_child(
       [&] {
         const MergeResult r = merge(run, file, partial);
-        return fmt::format("{} {} {} {} {} {}", r.content_digest, r.cells, r.baked, r.all_visible,
-                           r.unfinished, r.bytes);
+        return fmt::format("{} {} {} {} {} {} {}", r.content_digest, r.cells, r.baked, r.all_visible,
+                           r.unfinished, r.bytes, r.conflicts);
       },
       [&](const ChildDeath& death) { explain_death(file, death); });
   MergeResult result;
   std::istringstream(text) >> result.content_digest >> result.cells >> result.baked >> result.all_visible >>
-      result.unfinished >> result.bytes;
+      result.unfinished >> result.bytes >> result.conflicts;
   result.elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

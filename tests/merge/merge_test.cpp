@@ -46,7 +46,7 @@ TEST(Merge, AgainGivesTheSameFile) {
   EXPECT_EQ(test::read_bytes(run.paths.result()), bytes);
 }
 
-TEST(Merge, EqualDuplicatesCountOnceAndDifferentOnesAreRefused) {
+TEST(Merge, EqualDuplicatesCountOnce) {
   RunDirectory run;
   run.whole();
   CellRecord slower = record(2);
@@ -56,17 +56,48 @@ TEST(Merge, EqualDuplicatesCountOnceAndDifferentOnesAreRefused) {
   const Journal journal = run.journal();
   EXPECT_EQ(journal.done, 7u);
   EXPECT_EQ(journal.duplicates, 2u);
-  merge_run(run.paths, {}, false);
+  EXPECT_EQ(journal.conflicts, 0u);
+  EXPECT_EQ(merge_run(run.paths, {}, false).conflicts, 0u);
   const PvsFile file = read_pvs(run.paths.result());
   EXPECT_EQ(file.bake_us[2], 1002u);  // the first counts
   EXPECT_EQ(file.overestimate[2], 1.25f);
+}
+
+/// Two renderers may differ in a pixel. Both answers are conservative: nothing is lost, and it is said.
+TEST(Merge, OfTwoDifferentAnswersTheFirstByNameCountsAndTheOtherIsReported) {
+  RunDirectory run;
+  run.whole();
   CellRecord other = record(4);
   other.row = {{1, completely_visible}};
-  run.shard("d", {other});
-  std::string message;
-  EXPECT_EQ(status_of([&] { run.journal(); }, &message), ExitStatus::bad_input);
-  EXPECT_NE(message.find("cell 4"), std::string::npos) << message;
-  EXPECT_EQ(status_of([&] { merge_run(run.paths, {}, false); }), ExitStatus::bad_input);
+  run.shard("d", {record(6), other});
+  const Journal journal = run.journal();
+  EXPECT_EQ(journal.done, 7u);
+  EXPECT_EQ(journal.duplicates, 1u);
+  EXPECT_EQ(journal.conflicts, 1u);
+  ASSERT_EQ(journal.conflict_examples.size(), 1u);
+  for (const char* part : {"cell 4: a at byte ", " counts, d at byte ", " differs"})
+    EXPECT_NE(journal.conflict_examples[0].find(part), std::string::npos) << journal.conflict_examples[0];
+  EXPECT_EQ(merge_run(run.paths, {}, false).conflicts, 1u);
+  const auto stored = [&] {
+    const PvsFile file = read_pvs(run.paths.result());
+    return PvsRow(file.row(4).begin(), file.row(4).end());
+  };
+  EXPECT_EQ(stored(), small_row(4).row);
+  run.shard("0", {other});  // whoever wrote it, and when: the name decides
+  EXPECT_EQ(run.journal().conflicts, 1u);
+  EXPECT_EQ(run.journal().duplicates, 2u);
+  merge_run(run.paths, {}, false);
+  EXPECT_EQ(stored(), other.row);
+}
+
+TEST(Merge, ManyDifferentAnswersAreCountedAndAFewNamed) {
+  RunDirectory run;
+  run.whole();
+  CellRecord other = record(4);
+  other.row = {{1, completely_visible}};
+  run.shard("d", std::vector<CellRecord>(100, other));
+  EXPECT_EQ(run.journal().conflicts, 100u);
+  EXPECT_LE(run.journal().conflict_examples.size(), 10u);
 }
 
 TEST(Merge, BakedReplacesAllVisibleInAnyOrder) {
