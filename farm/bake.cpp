@@ -4,12 +4,12 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "farm/coordinator.h"
+#include "farm/dry_run.h"
 #include "farm/fingerprint.h"
 #include "farm/finish.h"
 #include "farm/lock.h"
@@ -142,26 +142,14 @@ void claim(const RunPaths& run, const Settings& settings, const Fingerprint& fin
   write_file_atomically(run.settings(), to_toml(settings));
 }
 
-void print_plan(const BakeOptions& options, const Settings& settings, const RunPaths& run,
-                const Transport& transport) {
-  const Fingerprint fingerprint = make_fingerprint(settings);
-  std::string out = fmt::format("{}\nfingerprint {}\n", to_toml(settings), fingerprint.hash);
-  for (const auto& file : settings.scene.model)
-    out += fmt::format("model {}, {}\n", file, bytes_text(std::filesystem::file_size(file)));
-  const RankShare share = rank_share(transport, options.workers, options.gpu);
-  out += fmt::format("ranks {}, workers {} a rank, {} software threads a worker\n", transport.size(),
-                     share.workers, share.threads_per_worker);
-  for (const auto& device : probe_devices()) out += "device " + device + "\n";
-  out += fmt::format("run directory {}, {} free\n", std::filesystem::absolute(run.directory).string(),
-                     bytes_text(free_bytes(run.directory)));
-  std::cout << out;
-}
-
 /// Everything that rank 0 does. \return the exit status. \throw Error.
 int bake_as_first(const BakeOptions& options, Transport& transport) {
   const Settings settings = load_settings(options.config);
   const RunPaths run = run_paths(options);
-  if (options.dry_run) return print_plan(options, settings, run, transport), 0;
+  if (options.dry_run) {
+    print_plan(options, settings, run, transport.size(), rank_share(transport, options.workers, options.gpu));
+    return 0;
+  }
   const auto began = std::chrono::steady_clock::now();
   const Fingerprint fingerprint = make_fingerprint(settings);
   worker_program();  // a missing worker is told before anything is written

@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "farm/fingerprint.h"
 #include "farm/run_directory.h"
-#include "farm/sweep_worker.h"
+#include "farm/sample_bake.h"
 #include "pvs/pvs_file.h"
 #include "pvs/shard.h"
 #include "scene/error.h"
@@ -19,10 +18,7 @@ namespace veduta {
 namespace {
 
 using nlohmann::json;
-using Clock = std::chrono::steady_clock;
 using Places = std::vector<std::array<double, 3>>;
-
-constexpr double open_timeout_s = 600, cell_timeout_s = 1800;  // the thesis's method takes minutes a cell
 
 Places choose_places(const City& city, const SweepOptions& options) {
   Places places;
@@ -52,49 +48,6 @@ std::vector<uint32_t> cells_at(const PvsFile& file, const Places& places) {
   return {found.begin(), found.end()};
 }
 
-struct Baked {
-  std::string renderer;
-  double ms = 0, core_ms = 0;  ///< of all cells
-  std::vector<CellRecord> records;
-};
-
-class Bakery {
- public:
-  Bakery(const RunPaths& run, const std::string& gpu) : worker_(run.directory / "worker.log", 1, gpu) {
-    worker_.send(Verb::open, json{{"directory", std::filesystem::absolute(run.directory).string()}}.dump());
-    const Frame opened = worker_.next(open_timeout_s);
-    renderer_ = json::parse(opened.text()).value("renderer", std::string());
-  }
-
-  Baked bake(const std::vector<uint32_t>& cells, Progress& progress) {
-    ask({cells.front()}, [](CellRecord&&) {});  // shaders are compiled, buffers made
-    Baked baked;
-    baked.renderer = renderer_;
-    const double cores_s = worker_.core_seconds();
-    const auto began = Clock::now();
-    ask(cells, [&](CellRecord&& record) {
-      baked.records.push_back(std::move(record));
-      progress.work("baking cells", baked.records.size(), cells.size());
-    });
-    baked.ms = std::chrono::duration<double, std::milli>(Clock::now() - began).count();
-    baked.core_ms = 1000 * (worker_.core_seconds() - cores_s);
-    return baked;
-  }
-
- private:
-  void ask(const std::vector<uint32_t>& cells, const std::function<void(CellRecord&&)>& take) {
-    worker_.send(Verb::bake, json{{"cells", cells}}.dump());
-    for (;;) {
-      const Frame frame = worker_.next(cell_timeout_s);
-      if (frame.verb == Verb::lease_done) return;
-      take(decode_cell_record(frame.payload.data(), frame.payload.size()));
-    }
-  }
-
-  SweepWorker worker_;
-  std::string renderer_;
-};
-
 /// The bytes of rows as they would be stored: by a file of the sampled cells, written beside and removed.
 double stored_bytes_per_cell(const RunPaths& run, const PvsFile& sample,
                              const std::vector<CellRecord>& records) {
@@ -109,7 +62,7 @@ double stored_bytes_per_cell(const RunPaths& run, const PvsFile& sample,
 }
 
 /// A file in memory of the sampled cells alone.
-PvsFile sample_of(PvsFile&& file, const std::vector<uint32_t>& cells, const Baked& baked,
+PvsFile sample_of(PvsFile&& file, const std::vector<uint32_t>& cells, const SampleBake& baked,
                   const Settings& settings) {
   PvsFile sample;
   sample.header.config = to_toml(settings), sample.header.renderer = baked.renderer;
@@ -143,6 +96,13 @@ void add_verification(const VerifyReport& report, SweepPoint& point) {
   point.false_invisible_solid_angle_worst = report.false_invisible_solid_angle_worst;
 }
 
+SampleBake bake(const RunPaths& run, const std::string& gpu, const std::vector<uint32_t>& cells,
+                Progress& progress) {
+  LoneWorker worker(run.directory / "worker.log", 1, gpu);
+  return bake_sample(worker, run, cells,
+                     [&](size_t done) { progress.work("baking cells", done, cells.size()); });
+}
+
 }  // namespace
 
 SweepPoint sweep_point(const RunPaths& run, const GridPoint& grid, const SweepOptions& options,
@@ -157,7 +117,7 @@ SweepPoint sweep_point(const RunPaths& run, const GridPoint& grid, const SweepOp
   point.cells = static_cast<uint32_t>(cells.size()), point.cells_in_all = file.city.cells.size();
 
   write_file_atomically(run.settings(), to_toml(grid.settings));
-  const Baked baked = Bakery(run, options.gpu).bake(cells, progress);
+  const SampleBake baked = bake(run, options.gpu, cells, progress);
   const double count = static_cast<double>(cells.size());
   point.renderer = baked.renderer;
   point.cell_ms = baked.ms / count, point.cell_core_ms = baked.core_ms / count;

@@ -6,11 +6,11 @@
 #include <thread>
 
 #include "farm/fingerprint.h"
+#include "farm/lone_worker.h"
 #include "farm/machine.h"
 #include "farm/preparation_book.h"
 #include "farm/run_directory.h"
 #include "farm/sweep_point.h"
-#include "farm/sweep_worker.h"
 #include "scene/error.h"
 
 namespace veduta {
@@ -24,7 +24,7 @@ class Preparers {
  public:
   Preparers(const RunPaths& run, uint32_t count) : run_(run) {
     for (uint32_t n = 0; n < count; ++n)
-      workers_.push_back(std::make_unique<SweepWorker>(run.directory / "worker.log", 1, "software"));
+      workers_.push_back(std::make_unique<LoneWorker>(run.directory / "worker.log", 1, "software"));
   }
 
   void work(Progress& progress) {
@@ -71,7 +71,7 @@ class Preparers {
 
   RunPaths run_;
   PreparationBook book_;
-  std::vector<std::unique_ptr<SweepWorker>> workers_;
+  std::vector<std::unique_ptr<LoneWorker>> workers_;
 };
 
 }  // namespace

@@ -20,18 +20,6 @@ VoxelRange voxels_of(double lower_m, double upper_m, const GridFrame& lattice) {
   return {number(lower_m + margin), number(upper_m - margin)};
 }
 
-bool polygon_contains(const std::vector<glm::dvec2>& polygon, const glm::dvec2& point) {
-  bool inside = false;
-  for (size_t n = 0; n < polygon.size(); ++n) {
-    const glm::dvec2 a = polygon[n] - point, b = polygon[(n + 1) % polygon.size()] - point;
-    const double cross = a.x * b.y - a.y * b.x;
-    if (cross == 0 && a.x * b.x <= 0 && a.y * b.y <= 0) return true;  // on the edge
-    // Half-open in y, so that a corner counts once.
-    if ((a.y > 0) != (b.y > 0) && (cross > 0) == (b.y > a.y)) inside = !inside;
-  }
-  return inside;
-}
-
 std::vector<LatticeCell> unite_open_cells(std::vector<LatticeCell> cells, const CellOptions& options) {
   for (int size_class = 0; (1 << size_class) < options.largest; ++size_class) {
     const auto parent = [](const LatticeCell& c) { return std::tuple(c.k >> 1, c.j >> 1, c.i >> 1); };

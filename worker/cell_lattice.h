@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/box.h"
+#include "scene/polygon_contains.h"
 #include "worker/bit_grid.h"
 
 namespace veduta {
@@ -51,9 +52,6 @@ std::vector<Box> in_hilbert_order(std::vector<LatticeCell> cells, const CellOpti
 
 /// Position of (x, y) along the Hilbert curve that fills a square of 2^order points a side.
 uint64_t hilbert_index(uint32_t order, uint32_t x, uint32_t y);
-
-/// Is the point in the polygon or on its boundary? Even-odd.
-bool polygon_contains(const std::vector<glm::dvec2>& polygon, const glm::dvec2& point);
 
 /// Numbers [first, last] of the voxels of a lattice in which [lower, upper] lies, along one axis. Not those
 /// that it shares less than a few thousandths of a voxel with: cells like whole multiples, and the lattice

@@ -1,6 +1,8 @@
 // Baking as people do it: again, with mistakes, in a directory that others use.
 #include <sys/file.h>
 
+#include <map>
+
 #include "pvs/pvs_file.h"
 #include "tests/farm/bake_fixture.h"
 
@@ -134,11 +136,39 @@ TEST_F(Bake, WorkersErrorStopsTheBake) {
   EXPECT_EQ(run(bake()), 0) << output;
 }
 
-TEST_F(Bake, DryRunWritesNothing) {
+TEST_F(Bake, DryRunWritesNothingAndEstimates) {
+  // One box of 20 m on a road of 100 m: 10 x 10 cells of which four are built over.
+  std::ofstream(directory / "town.obj")
+      << "v -50 -50 0\nv 50 -50 0\nv 50 50 0\nv -50 50 0\nv -10 -10 9\nv 10 -10 9\nv 10 10 9\nv -10 10 9\n"
+         "o road\nf 1 2 3 4\no building\nf 5 6 7 8\n";
+  std::ofstream(directory / "town.toml") << "[scene]\nmodel = 'town.obj'\n";
+  config = (directory / "town.toml").string();
   ASSERT_EQ(run(bake("--dry-run")), 0) << output;
   EXPECT_NE(output.find("fingerprint "), std::string::npos);
-  EXPECT_NE(output.find("device 0: software (fake)"), std::string::npos) << output;
+  EXPECT_NE(output.find("device      0: software (fake)"), std::string::npos) << output;
+  EXPECT_NE(output.find("cells       about 96, "), std::string::npos) << output;
+  EXPECT_NE(output.find(" for shards/"), std::string::npos) << output;
   EXPECT_FALSE(fs::exists(directory / "run"));
+}
+
+TEST_F(Bake, DryRunOfAPreparedCityBakesAFewCells) {
+  const auto process = start(bake(), slow);
+  ASSERT_TRUE(in_the_middle());
+  kill(process->pid(), SIGTERM);
+  ASSERT_EQ(process->wait(), 75) << process->output();
+  const auto files = [&] {
+    std::map<fs::path, uintmax_t> all;
+    for (const auto& entry : fs::recursive_directory_iterator(directory / "run"))
+      if (entry.is_regular_file()) all[entry.path()] = entry.file_size();
+    return all;
+  };
+  const auto before = files();
+  ASSERT_EQ(run(bake("--dry-run")), 0) << output;
+  EXPECT_NE(output.find("cells       200, "), std::string::npos) << output;
+  EXPECT_NE(output.find("the one that baked 16 of them"), std::string::npos) << output;
+  EXPECT_EQ(files(), before);
+  config = write_config("other.toml", "[cells]\nsize = 12\n");
+  EXPECT_EQ(run(bake("--dry-run")), 4) << output;
 }
 
 }  // namespace

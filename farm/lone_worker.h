@@ -8,11 +8,11 @@
 
 namespace veduta {
 
-class SweepWorker {
+class LoneWorker {
  public:
   /// Starts it and hears its greeting. `log` gets its standard error. \throw as every other function
   /// Error(defect) naming what ended it: its last words, a signal or silence.
-  SweepWorker(const std::filesystem::path& log, uint32_t threads, const std::string& gpu);
+  LoneWorker(const std::filesystem::path& log, uint32_t threads, const std::string& gpu);
 
   void send(Verb verb, const std::string& json) { child_.send(verb, json); }
   int output() const { return child_.output(); }  ///< to poll

@@ -1,4 +1,4 @@
-#include "farm/sweep_worker.h"
+#include "farm/lone_worker.h"
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -25,12 +25,12 @@ ChildCommand command(const std::filesystem::path& log, uint32_t threads, const s
 
 }  // namespace
 
-SweepWorker::SweepWorker(const std::filesystem::path& log, uint32_t threads, const std::string& gpu)
+LoneWorker::LoneWorker(const std::filesystem::path& log, uint32_t threads, const std::string& gpu)
     : log_(log), child_(command(log, threads, gpu)) {
   next(greeting_timeout_s);
 }
 
-Frame SweepWorker::next(double timeout_s) {
+Frame LoneWorker::next(double timeout_s) {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::duration<double>(timeout_s);
   for (;;) {
@@ -42,12 +42,12 @@ Frame SweepWorker::next(double timeout_s) {
   }
 }
 
-std::optional<Frame> SweepWorker::next_of_ready() {
+std::optional<Frame> LoneWorker::next_of_ready() {
   if (!child_.read()) fail("");
   return take();
 }
 
-std::optional<Frame> SweepWorker::take() {
+std::optional<Frame> LoneWorker::take() {
   auto frame = child_.next();
   if (frame && frame->verb == Verb::failed) {
     const auto words = nlohmann::json::parse(frame->text(), nullptr, false);
@@ -58,14 +58,14 @@ std::optional<Frame> SweepWorker::take() {
   return frame;
 }
 
-double SweepWorker::core_seconds() const {
+double LoneWorker::core_seconds() const {
   clockid_t clock{};
   timespec time{};
   if (clock_getcpuclockid(child_.process(), &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-void SweepWorker::fail(const std::string& why) {
+void LoneWorker::fail(const std::string& why) {
   const std::string ending = why.empty() ? child_.reap(false) : (child_.reap(true), why);
   const std::string words = last_line(log_);
   throw Error(ExitStatus::defect, fmt::format("worker: {}{}{}", ending, words.empty() ? "" : ": ", words));
