@@ -66,20 +66,35 @@ class GuardedShepherd {
   Shepherd shepherd_;
 };
 
-/// With MPI, messages must be polled for; alone, only children have something to say.
-int wait_ms(const Transport& transport) {
+/// How long to wait for the children. With MPI, messages must be polled for, and while they come there is no
+/// wait at all; alone, only children have something to say.
+int wait_ms(const Transport& transport, bool messages_came) {
+  if (messages_came) return 0;
   return transport.size() > 1 ? 1 : 20;
+}
+
+/// Hands what has come to `handle`, no more of it than lets the caller look after the rest.
+/// \return whether there was any.
+template <typename Handle>
+bool deliver(Transport& transport, const Handle& handle) {
+  constexpr int most = 4096;
+  for (int count = 0; count < most; ++count) {
+    const auto received = transport.receive();
+    if (!received) return count > 0;
+    handle(*received);
+  }
+  return true;
 }
 
 /// A rank other than 0: does as it is told until Goodbye.
 void serve(Transport& transport, GuardedShepherd& shepherd) {
-  for (;;) {
-    while (const auto received = transport.receive()) {
-      if (std::holds_alternative<GoodbyeMessage>(received->message)) return;
-      shepherd.handle(received->message);
-    }
+  for (bool goodbye = false; !goodbye;) {
+    const bool came = deliver(transport, [&](const Received& received) {
+      goodbye = goodbye || std::holds_alternative<GoodbyeMessage>(received.message);
+      if (!goodbye) shepherd.handle(received.message);
+    });
     if (stop_requested()) shepherd.stop();
-    shepherd.step(wait_ms(transport));
+    if (!goodbye) shepherd.step(wait_ms(transport, came));
   }
 }
 
@@ -115,21 +130,19 @@ std::optional<Error> coordinate(Transport& transport, Coordinator& coordinator, 
       coordinator.finish(false);
     }
   };
-  const auto deliver = [&] {
-    while (const auto received = transport.receive()) {
-      if (for_shepherd(received->message))
-        shepherd.handle(received->message);
-      else
-        guard([&] { coordinator.handle(received->from, received->message); });
-    }
+  const auto take = [&](const Received& received) {
+    if (for_shepherd(received.message))
+      shepherd.handle(received.message);
+    else
+      guard([&] { coordinator.handle(received.from, received.message); });
   };
   guard([&] { coordinator.start(); });
   while (!coordinator.finished()) {
-    deliver();
+    bool came = deliver(transport, take);
     guard([&] { coordinator.tick(stop_requested()); });
-    deliver();  // leases of our own children do not wait for the next sign of one
+    came = deliver(transport, take) || came;  // leases of our own children do not wait for the next sign
     if (stop_at_once_requested()) _exit(static_cast<int>(ExitStatus::stopped_early));
-    shepherd.step(wait_ms(transport));
+    shepherd.step(wait_ms(transport, came));
   }
   return failure;
 }

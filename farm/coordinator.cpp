@@ -92,7 +92,7 @@ void Coordinator::handle(int from, const Message& message) {
     on_cell(*cell);
   } else if (const auto* done = std::get_if<LeaseDoneMessage>(&message)) {
     if (book_) book_->lease_done(done->lease);
-    idle_.insert({from, static_cast<int>(done->slot)});
+    wait_for_lease({from, static_cast<int>(done->slot)});
   } else if (const auto* lost = std::get_if<LostMessage>(&message)) {
     on_lost({from, static_cast<int>(lost->slot)}, *lost);
   } else if (const auto* note = std::get_if<NoteMessage>(&message)) {
@@ -124,7 +124,8 @@ void Coordinator::on_preparation_complete() {
 }
 
 void Coordinator::on_idle(WorkerId worker, const IdleMessage& message) {
-  idle_.insert(worker), open_.insert(worker);
+  open_.insert(worker);
+  wait_for_lease(worker);
   const std::string renderer = message.renderer.text();
   if (!tally_.renderers.insert(renderer).second) return;
   log_.info("renderer", json{{"rank", worker.rank}, {"renderer", renderer}}, "renderer: " + renderer);
@@ -132,6 +133,12 @@ void Coordinator::on_idle(WorkerId worker, const IdleMessage& message) {
     log_.warning("mixed renderers", json{{"rank", worker.rank}, {"renderer", renderer}},
                  "cells are baked by different renderers, so that a digest may differ from one machine's: " +
                      renderer);
+}
+
+/// Who waits for a lease holds none: one in its name never reached it, because the child that was idle died.
+void Coordinator::wait_for_lease(WorkerId worker) {
+  if (book_) book_->take_back(worker);
+  idle_.insert(worker);
 }
 
 void Coordinator::on_cell(const CellMessage& message) {
@@ -150,6 +157,7 @@ void Coordinator::on_lost(WorkerId worker, const LostMessage& message) {
                  {"reason", message.reason.text()}},
             fmt::format("worker {} of rank {} ended: {}", worker.slot, worker.rank, message.reason.text()));
   const auto poison = book_ && message.lease != 0 ? book_->lease_lost(message.lease, true) : std::nullopt;
+  if (book_) book_->take_back(worker);
   if (poison) record_all_visible(*poison, message.reason.text());
   given_up_ += message.given_up;
   const auto condemned = preparing_ ? preparing_->on_lost(worker, message) : std::nullopt;
@@ -188,10 +196,7 @@ void Coordinator::record_all_visible(uint32_t cell, const std::string& why) {
 void Coordinator::hand_out() {
   for (auto worker = idle_.begin(); worker != idle_.end();) {
     const auto lease = book_->grant(*worker, now_s());
-    if (!lease) {
-      ++worker;
-      continue;
-    }
+    if (!lease) return;  // nor for anybody else
     GrantMessage grant;
     grant.lease = lease->id, grant.slot = static_cast<uint32_t>(worker->slot);
     grant.begin = lease->begin, grant.count = lease->count;

@@ -61,6 +61,7 @@ class Coordinator {
   void read_done_cells();
   void on_preparation_complete();
   void on_idle(WorkerId worker, const IdleMessage& message);
+  void wait_for_lease(WorkerId worker);
   void on_cell(const CellMessage& message);
   void on_lost(WorkerId worker, const LostMessage& message);
   void record_all_visible(uint32_t cell, const std::string& why);

@@ -6,6 +6,8 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <set>
+#include <unordered_map>
 #include <vector>
 
 namespace veduta {
@@ -25,8 +27,12 @@ struct Lease {
 };
 
 /// Guided self-scheduling: a lease is the remaining cells over 4 x workers, clamped to 1..64, so that leases
-/// shrink towards the end. When nothing is left to give out, an idle worker takes the second half of what the
-/// slowest lease still has to do: the first answer counts.
+/// shrink towards the end. What came back is given out before anything new. When nothing is left to give out,
+/// an idle worker takes the second half of what the slowest lease still has to do: the first answer counts.
+///
+/// Memory: 3 bits a cell, and some hundred bytes a lease in hands. Every call takes a time that depends on
+/// the size of a lease and the logarithm of the number of leases in hands, not on how many cells there are or
+/// are done.
 class LeaseBook {
  public:
   static constexpr uint32_t largest_lease = 64;
@@ -35,8 +41,9 @@ class LeaseBook {
   /// \param done  [C] true for cells that need no baking
   LeaseBook(std::vector<bool> done, uint32_t workers);
 
-  /// The next lease for an idle worker, nullopt when there is nothing useful for it to do now. A lease that
-  /// it still holds has got lost on its way and goes back.
+  /// The next lease for an idle worker, nullopt when there is nothing useful for it to do now; then there is
+  /// nothing either, at this time, for any other worker that holds no lease. A lease that it still holds has
+  /// got lost on its way and goes back.
   ///
   /// \param now_s  any steadily growing clock
   std::optional<Lease> grant(WorkerId worker, double now_s);
@@ -53,6 +60,9 @@ class LeaseBook {
   ///   visible and reports it by cell_done().
   std::optional<uint32_t> lease_lost(uint64_t lease, bool counts);
 
+  /// The worker holds nothing any more: a lease that is still in its name goes back, and does not count.
+  void take_back(WorkerId worker);
+
   bool complete() const { return done_count_ == done_.size(); }
   uint32_t done_count() const { return done_count_; }
   uint32_t cell_count() const { return static_cast<uint32_t>(done_.size()); }
@@ -67,17 +77,42 @@ class LeaseBook {
     Range range;
     double last_sign_s = 0;
     bool progressed = false;
+    /// The last run of its cells that are not done and that nobody else holds: of this, half may be stolen.
+    /// It may hold more than that, when somebody who had lost the lease answered late.
+    uint32_t open_begin = 0, open_end = 0;
+    uint64_t victim = 0;            ///< the lease that it was stolen from, while that is in hands; 0: none
+    std::vector<uint64_t> thieves;  ///< leases in hands that were stolen from it
   };
-  std::optional<Range> take_pending();
-  std::optional<Range> steal(double now_s) const;
-  void take_back_from(WorkerId worker);
-  void give_back(uint32_t begin, uint32_t end, int kills);
+  using Leases = std::unordered_map<uint64_t, Granted>;
+  /// Of the leases in hands that have open cells, the one to steal from comes first.
+  struct Victim {
+    uint32_t open = 0;
+    double last_sign_s = 0;
+    uint64_t id = 0;
+    bool operator<(const Victim& other) const;
+  };
 
-  std::vector<bool> done_;
-  std::vector<uint8_t> holders_;  ///< [C] leases that hold the cell now
-  std::deque<Range> pending_;
-  std::map<uint64_t, Granted> granted_;
-  uint32_t done_count_ = 0, pending_count_ = 0, workers_ = 1;
+  std::optional<Range> take_returned(uint32_t size);
+  std::optional<Range> take_fresh(uint32_t size);
+  std::optional<Range> steal(double now_s, uint64_t& victim);
+  Granted let_go(Leases::iterator lease);
+  void give_back(const Range& range);
+  void find_open(Granted& lease) const;
+  void refresh(uint64_t lease);
+  static Victim victim_of(uint64_t id, const Granted& lease);
+  void hold(uint32_t cell);
+  void release(uint32_t cell);
+
+  std::vector<bool> done_;          ///< [C]
+  std::vector<bool> held_, twice_;  ///< [C] by a lease in hands; by two of them: a victim and its thief
+  uint32_t fresh_ = 0;              ///< cells from here on have never been given out
+  uint32_t fresh_left_ = 0;         ///< of those that are not done
+  std::deque<Range> returned_;
+  uint32_t returned_left_ = 0;
+  Leases granted_;
+  std::map<WorkerId, uint64_t> lease_of_;
+  std::set<Victim> victims_;
+  uint32_t done_count_ = 0, workers_ = 1;
   uint64_t next_id_ = 1;
   double cell_s_ = 0;  ///< smoothed time from one answer of a lease to its next
 };

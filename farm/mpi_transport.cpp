@@ -1,7 +1,7 @@
 #include <mpi.h>
 #include <unistd.h>
 
-#include <atomic>
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <deque>
@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "farm/transport.h"
-#include "scene/error.h"
 
 namespace veduta {
 namespace {
@@ -47,6 +46,7 @@ class MpiTransport final : public Transport {
     MPI_Comm_rank(host, &local_rank_);
     MPI_Comm_size(host, &local_size_);
     MPI_Comm_free(&host);
+    for (Incoming& in : incoming_) post(in);
   }
   int rank() const override { return rank_; }
   int size() const override { return size_; }
@@ -59,29 +59,33 @@ class MpiTransport final : public Transport {
       return;
     }
     // A stopped receiver must not stop the sender: the bytes are kept until MPI has taken them.
-    Outgoing& out = outgoing_.emplace_back();
-    out.bytes = encode(message);
+    outgoing_.push_back({encode(message), MPI_REQUEST_NULL});
+    Outgoing& out = outgoing_.back();
     MPI_Isend(out.bytes.data(), static_cast<int>(out.bytes.size()), MPI_BYTE, to, tag, MPI_COMM_WORLD,
               &out.request);
+    if (sent(out)) outgoing_.pop_back();  // nearly always
   }
 
   std::optional<Received> receive() override {
-    forget_sent();
     if (!own_.empty()) {
       Received received{rank_, own_.front()};
       own_.pop_front();
       return received;
     }
+    // Messages match the receives in the order in which these were posted.
+    Incoming& in = incoming_[next_];
     int there = 0, size = 0;
     MPI_Status status;
-    MPI_Iprobe(MPI_ANY_SOURCE, tag, MPI_COMM_WORLD, &there, &status);
-    if (!there) return std::nullopt;
+    MPI_Test(&in.request, &there, &status);
+    if (!there) {
+      outgoing_.remove_if(sent);
+      return std::nullopt;
+    }
     MPI_Get_count(&status, MPI_BYTE, &size);
-    if (size < 0 || static_cast<size_t>(size) > message_limit)
-      throw Error(ExitStatus::defect, "a message between ranks is too long");
-    std::byte bytes[message_limit];
-    MPI_Recv(bytes, size, MPI_BYTE, status.MPI_SOURCE, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-    return Received{status.MPI_SOURCE, decode_message(bytes, static_cast<size_t>(size))};
+    const Received received{status.MPI_SOURCE, decode_message(in.bytes.data(), static_cast<size_t>(size))};
+    post(in);
+    next_ = (next_ + 1) % incoming_.size();
+    return received;
   }
 
   void leave(int status) override {
@@ -91,8 +95,12 @@ class MpiTransport final : public Transport {
       _exit(status);
     }).detach();
     while (!outgoing_.empty()) {
-      forget_sent();
+      outgoing_.remove_if(sent);
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    for (Incoming& in : incoming_) {
+      MPI_Cancel(&in.request);
+      MPI_Wait(&in.request, MPI_STATUS_IGNORE);
     }
     MPI_Finalize();
   }
@@ -102,16 +110,26 @@ class MpiTransport final : public Transport {
     std::vector<std::byte> bytes;
     MPI_Request request = MPI_REQUEST_NULL;
   };
-  void forget_sent() {
-    for (auto each = outgoing_.begin(); each != outgoing_.end();) {
-      int sent = 0;
-      MPI_Test(&each->request, &sent, MPI_STATUS_IGNORE);
-      each = sent ? outgoing_.erase(each) : std::next(each);
-    }
+  static bool sent(Outgoing& out) {
+    int done = 0;
+    MPI_Test(&out.request, &done, MPI_STATUS_IGNORE);
+    return done != 0;
+  }
+  /// Posted before anything comes: what is there is taken without asking the network again, and nothing
+  /// blocks in a receive whose sender has died.
+  struct Incoming {
+    std::array<std::byte, message_limit> bytes;
+    MPI_Request request = MPI_REQUEST_NULL;
+  };
+  static void post(Incoming& in) {
+    MPI_Irecv(in.bytes.data(), static_cast<int>(in.bytes.size()), MPI_BYTE, MPI_ANY_SOURCE, tag,
+              MPI_COMM_WORLD, &in.request);
   }
   int rank_ = 0, size_ = 1, local_rank_ = 0, local_size_ = 1;
   std::deque<Message> own_;
   std::list<Outgoing> outgoing_;
+  std::vector<Incoming> incoming_ = std::vector<Incoming>(256);
+  size_t next_ = 0;  ///< of incoming_: posted first
 };
 
 }  // namespace
