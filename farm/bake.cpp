@@ -32,6 +32,15 @@ bool for_shepherd(const Message& message) {
       message);
 }
 
+/// An error of this rank as the coordinator is told it: the user must know which host to look at.
+FailedMessage failure(const Transport& transport, ExitStatus status, const std::string& what) {
+  FailedMessage failed;
+  failed.status = static_cast<int32_t>(status);
+  failed.message = FixedText<1600>(
+      transport.rank() == 0 ? what : fmt::format("rank {} on {}: {}", transport.rank(), host_name(), what));
+  return failed;
+}
+
 /// The shepherd of this rank, from Start to Left; its errors become messages to the coordinator.
 class GuardedShepherd {
  public:
@@ -50,16 +59,13 @@ class GuardedShepherd {
  private:
   template <typename Action>
   void guard(const Action& action) {
-    FailedMessage failed;
     try {
       return action();
     } catch (const Error& error) {
-      failed.status = static_cast<int32_t>(error.status()), failed.message = FixedText<1600>(error.what());
+      transport_.send(0, failure(transport_, error.status(), error.what()));
     } catch (const std::exception& error) {
-      failed.status = static_cast<int32_t>(ExitStatus::defect),
-      failed.message = FixedText<1600>(error.what());
+      transport_.send(0, failure(transport_, ExitStatus::defect, error.what()));
     }
-    transport_.send(0, failed);
     shepherd_.abandon();
   }
   Transport& transport_;
@@ -100,16 +106,14 @@ void serve(Transport& transport, GuardedShepherd& shepherd) {
 
 /// The same, when this host cannot even begin: the coordinator hears why.
 void serve_guarded(const BakeOptions& options, Transport& transport) {
-  FailedMessage failed;
   try {
     const RankShare share = rank_share(transport, options.workers, options.gpu);
     GuardedShepherd shepherd(transport, {run_paths(options), share.workers, share.threads_per_worker,
                                          share.cores, options.gpu, options.cell_timeout_s});
     return serve(transport, shepherd);
   } catch (const Error& error) {
-    failed.status = static_cast<int32_t>(error.status()), failed.message = FixedText<1600>(error.what());
+    transport.send(0, failure(transport, error.status(), error.what()));
   }
-  transport.send(0, failed);
   transport.send(0, LeftMessage{});
   for (;;) {
     if (const auto received = transport.receive();

@@ -36,6 +36,12 @@ RankShare rank_share(const Transport& transport, uint32_t wanted_workers, const 
   return share;
 }
 
+std::string host_name() {
+  char name[256] = {};
+  gethostname(name, sizeof name - 1);
+  return name;
+}
+
 uint64_t free_bytes(const std::filesystem::path& place) {
   std::filesystem::path there = std::filesystem::absolute(place);
   while (!std::filesystem::exists(there) && there.has_relative_path()) there = there.parent_path();

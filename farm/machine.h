@@ -20,6 +20,9 @@ struct RankShare {
 /// \param wanted_workers  0: one per hardware device of this rank, or per core when GL is software
 RankShare rank_share(const Transport& transport, uint32_t wanted_workers, const std::string& gpu);
 
+/// What this host calls itself.
+std::string host_name();
+
 uint64_t free_bytes(const std::filesystem::path& place);
 /// "1.3 GB".
 std::string bytes_text(uint64_t bytes);

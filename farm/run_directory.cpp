@@ -6,10 +6,12 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <thread>
 
 #include "pvs/pvs_file.h"
 #include "scene/error.h"
@@ -92,6 +94,21 @@ uint32_t next_attempt(const RunPaths& run) {
 
 void make_run_directory(const RunPaths& run) {
   for (const fs::path& directory : {run.directory, run.shards(), worker_logs(run)}) make_directory(directory);
+}
+
+void require_shared_run(const RunPaths& run, const std::string& fingerprint) {
+  // A network file system may show what another host has just made a moment later.
+  std::optional<std::string> seen;
+  for (int tries = 0; tries < 20; ++tries) {
+    if (tries > 0) std::this_thread::sleep_for(std::chrono::milliseconds(250));
+    seen = read_text_file(run.fingerprint());
+    if (seen && seen->substr(0, seen->find('\n')) == fingerprint) return;
+  }
+  throw Error(ExitStatus::input_output,
+              fmt::format("{}: {}; --out must lie on a file system that every host sees at the same path",
+                          fs::absolute(run.directory).string(),
+                          seen ? "holds another job than it does on the host of rank 0"
+                               : "the run directory of rank 0 is not here"));
 }
 
 bool is_run_directory(const RunPaths& run) {

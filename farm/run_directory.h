@@ -27,6 +27,9 @@ uint32_t next_attempt(const RunPaths& run);
 /// Makes the directories. \throw Error(input_output) when that is not possible or the place cannot be written
 /// to.
 void make_run_directory(const RunPaths& run);
+/// For ranks on other hosts, before they do anything. \throw Error(input_output) when this host does not see
+/// the directory that the coordinator has claimed for the job of this fingerprint.
+void require_shared_run(const RunPaths& run, const std::string& fingerprint);
 /// A bake has been here: its lock file stays for ever.
 bool is_run_directory(const RunPaths& run);
 /// Removes what writers that were killed left beside the files of the run. Those that still run are left

@@ -34,6 +34,7 @@ void Shepherd::handle(const Message& message) {
   if (stop_until_) return;  // whatever was on its way when the bake stopped
   if (const auto* start = std::get_if<StartMessage>(&message)) {
     job_ = *start;
+    if (transport_.rank() != 0) require_shared_run(options_.run, job_.fingerprint.text());
     for (uint32_t number = 0; number < slots_.size(); ++number) spawn(number);
     ReadyMessage ready;
     ready.workers = options_.workers;
