@@ -81,6 +81,11 @@ fs::path unfinished_preparation(const RunPaths& run) {
   return run.directory / "prepared.tmp";
 }
 
+void remove_unfinished_preparation(const RunPaths& run) {
+  std::error_code ignored;
+  fs::remove_all(unfinished_preparation(run), ignored);
+}
+
 uint32_t next_attempt(const RunPaths& run) {
   uint32_t highest = 0;
   for (const fs::path& directory : {run.shards(), worker_logs(run)}) {

@@ -21,6 +21,9 @@ std::filesystem::path worker_log(const RunPaths& run, uint32_t attempt, int rank
 /// Where the steps of a preparation leave their files for each other (worker/preparation.h).
 std::filesystem::path unfinished_preparation(const RunPaths& run);
 
+/// What is left of it when the city is there: its last step was killed while it removed it.
+void remove_unfinished_preparation(const RunPaths& run);
+
 /// One more than the highest attempt that left a shard or a worker's log.
 uint32_t next_attempt(const RunPaths& run);
 

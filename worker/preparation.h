@@ -45,6 +45,7 @@ uint32_t make_tile_cells(const RunPaths& run, const Settings& settings, uint32_t
 void shrink_block(const RunPaths& run, const Settings& settings, uint32_t block);
 
 /// Stage 5, one part: gathers what the tiles and blocks left into prepared/, which then replaces the old one.
+/// After one that was killed, at any time, it does what is left of this.
 /// \return notes. \throw Error(bad_input) for a scene with no place to stand in.
 struct PreparedSize {
   uint64_t cells = 0, objects = 0, triangles = 0;

@@ -64,10 +64,33 @@ void note_rings(const std::vector<WindowOccluders>& windows, std::vector<std::st
   }
 }
 
+namespace fs = std::filesystem;
+
+/// Removes what the steps left for each other: the plan first, so that without it there is nothing to do.
+void remove_parts(const RunPaths& run) {
+  std::error_code ignored;  // what stays is in nobody's way
+  fs::remove(plan_file(run), ignored);
+  fs::remove_all(preparation_folder(run), ignored);
+}
+
+/// A finish was killed after it had made prepared/ and before it could say so.
+bool was_finished(const RunPaths& run) {
+  std::error_code ignored;
+  return fs::exists(run.city(), ignored) && !fs::exists(plan_file(run), ignored);
+}
+
+PreparedSize finished_size(const RunPaths& run) {
+  const City city = read_city(run.city());
+  return {city.cells.size(), city.scene.objects.size(), city.scene.triangles.size(), {}};
+}
+
 }  // namespace
 
 PreparedSize finish_preparation(const RunPaths& run, const Settings& settings) {
-  namespace fs = std::filesystem;
+  if (was_finished(run)) {
+    remove_parts(run);
+    return finished_size(run);
+  }
   const PreparationPlan plan = read_plan(run);
   PreparedSize size{0, plan.objects, plan.triangles, plan.notes};
   // In a folder of its own, so that what is left of a finish that died is overwritten, and one rename makes
@@ -91,7 +114,7 @@ PreparedSize finish_preparation(const RunPaths& run, const Settings& settings) {
   fs::rename(made, run.prepared(), error);
   if (error) throw Error(ExitStatus::input_output, run.prepared().string() + ": " + error.message());
   sync_path(run.directory);
-  fs::remove_all(preparation_folder(run), error);  // what stays is in nobody's way
+  remove_parts(run);
   return size;
 }
 

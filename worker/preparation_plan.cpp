@@ -163,6 +163,10 @@ std::filesystem::path preparation_folder(const RunPaths& run) {
   return run.directory / "prepared.tmp";
 }
 
+std::filesystem::path plan_file(const RunPaths& run) {
+  return preparation_folder(run) / "plan.json";
+}
+
 std::filesystem::path part_file(const RunPaths& run, const char* what, uint32_t part) {
   return preparation_folder(run) / what / std::to_string(part);
 }
@@ -203,7 +207,7 @@ void write_plan(const RunPaths& run, const PreparationPlan& plan) {
       {"objects", plan.objects},
       {"triangles", plan.triangles},
   };
-  write_atomically(preparation_folder(run) / "plan.json", [&](const std::filesystem::path& file) {
+  write_atomically(plan_file(run), [&](const std::filesystem::path& file) {
     std::ofstream out(file, std::ios::binary);
     out << text.dump(-1, ' ', false, json::error_handler_t::replace) << '\n';
     out.close();
@@ -212,7 +216,7 @@ void write_plan(const RunPaths& run, const PreparationPlan& plan) {
 }
 
 PreparationPlan read_plan(const RunPaths& run) {
-  const std::filesystem::path file = preparation_folder(run) / "plan.json";
+  const std::filesystem::path file = plan_file(run);
   std::ifstream in(file, std::ios::binary);
   const json text = json::parse(in, nullptr, false);
   try {

@@ -66,6 +66,8 @@ PreparationPlan read_plan(const RunPaths& run);
 
 /// Where the steps keep their files.
 std::filesystem::path preparation_folder(const RunPaths& run);
+/// The plan lies there from the import to the finish.
+std::filesystem::path plan_file(const RunPaths& run);
 /// A file of each part, in a folder for what it holds: of tiles "triangles", "surface", "space", "sides" and
 /// "cells", of blocks "occluders".
 std::filesystem::path part_file(const RunPaths& run, const char* what, uint32_t part);
