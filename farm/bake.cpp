@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -24,6 +25,15 @@ namespace {
 
 RunPaths run_paths(const BakeOptions& options) {
   return {options.out.empty() ? std::filesystem::path("out") / options.config.stem() : options.out};
+}
+
+/// What to type, with the launcher in front of it.
+std::string command_to_continue(const BakeOptions& options) {
+  if (const char* ranks = std::getenv("OMPI_COMM_WORLD_SIZE"))
+    return fmt::format("mpirun -n {} {}", ranks, options.command_line);
+  if (const char* ranks = std::getenv("SLURM_STEP_NUM_TASKS"); ranks && launched_rank())
+    return fmt::format("srun -n {} {}", ranks, options.command_line);
+  return options.command_line;
 }
 
 bool for_shepherd(const Message& message) {
@@ -145,7 +155,6 @@ std::optional<Error> coordinate(Transport& transport, Coordinator& coordinator, 
     bool came = deliver(transport, take);
     guard([&] { coordinator.tick(stop_requested()); });
     came = deliver(transport, take) || came;  // leases of our own children do not wait for the next sign
-    if (stop_at_once_requested()) _exit(static_cast<int>(ExitStatus::stopped_early));
     shepherd.step(wait_ms(transport, came));
   }
   return failure;
@@ -184,13 +193,19 @@ int bake_as_first(const BakeOptions& options, Transport& transport) {
     log.info("bound", nlohmann::json{{"cores", share.cores}, {"machine_cores", share.machine_cores}},
              fmt::format("this rank may use {} of {} cores; mpirun --bind-to none lets it use all",
                          share.cores, share.machine_cores));
-  Coordinator coordinator(transport, {run, fingerprint.hash, share.workers}, log, progress);
+  Coordinator coordinator(transport, {run, fingerprint.hash, share.workers, options.rank_timeout_s}, log,
+                          progress);
   GuardedShepherd shepherd(transport, {run, share.workers, share.threads_per_worker, share.cores, options.gpu,
                                        options.cell_timeout_s});
   const auto failure = coordinate(transport, coordinator, shepherd);
   progress.clear();
-  BakeEnd end{run,   fingerprint.hash,    coordinator.tally(), transport.size(), share.workers,
-              began, options.command_line};
+  BakeEnd end{run,
+              fingerprint.hash,
+              coordinator.tally(),
+              transport.size(),
+              share.workers,
+              began,
+              command_to_continue(options)};
   if (failure) {
     log.info("failed",
              nlohmann::json{{"status", static_cast<int>(failure->status())}, {"message", failure->what()}});
@@ -214,7 +229,9 @@ int bake_guarded(const BakeOptions& options, Transport& transport) {
 }  // namespace
 
 int run_bake(const BakeOptions& options) {
-  install_stop_signals();
+  install_stop_signals(launched_rank().value_or(0) == 0
+                           ? "veduta: stopped at once; continue with: " + command_to_continue(options)
+                           : "");
   const auto transport = make_transport();
   int status = 0;
   if (transport->rank() == 0) {

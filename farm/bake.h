@@ -13,7 +13,7 @@ struct BakeOptions {
   std::filesystem::path out;  ///< empty: out/<name of the configuration>
   uint32_t workers = 0;       ///< children a rank; 0: one per GPU, or per core of a software renderer
   std::string gpu = "auto";
-  double cell_timeout_s = 300;
+  double cell_timeout_s = 300, rank_timeout_s = 60;
   bool fresh = false, dry_run = false, merge = true;
   Verbosity verbosity = Verbosity::normal;
   std::string command_line;  ///< what to type to continue

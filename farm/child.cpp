@@ -22,6 +22,7 @@ extern char** environ;
 namespace veduta {
 namespace {
 
+constexpr int cannot_execute = 127;  // as a shell says it
 constexpr auto patience_to_leave = std::chrono::seconds(5), patience_to_die = std::chrono::seconds(5);
 
 [[noreturn]] void cannot_start(const std::string& program, const char* what) {
@@ -56,7 +57,7 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   // Children die with their shepherd, also when it is killed; the parent may have died before the call took
   // effect.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(127);
+  if (getppid() != parent) _exit(cannot_execute);
   // Ctrl-C and mpirun's signals go to the whole group, Slurm's to every process of the job: the shepherd
   // decides what its children do.
   setpgid(0, 0);
@@ -69,7 +70,11 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
   execve(arguments[0], arguments, environment);
-  _exit(127);
+  // To its log. These functions may be called here, and a log that cannot be written is no matter now.
+  for (const char* text :
+       {static_cast<const char*>(arguments[0]), ": cannot be started: ", strerrordesc_np(errno), "\n"})
+    if (text && write(STDERR_FILENO, text, std::strlen(text)) < 0) break;
+  _exit(cannot_execute);
 }
 
 }  // namespace
@@ -162,6 +167,14 @@ std::string Child::reap(bool kill) {
   if (WIFSIGNALED(wait_status_))
     return fmt::format("signal {} ({})", WTERMSIG(wait_status_), strsignal(WTERMSIG(wait_status_)));
   return fmt::format("exit status {}", WEXITSTATUS(wait_status_));
+}
+
+bool Child::started() const {
+  return exit_status() != cannot_execute;
+}
+
+int Child::signal() const {
+  return WIFSIGNALED(wait_status_) ? WTERMSIG(wait_status_) : 0;
 }
 
 int Child::exit_status() const {

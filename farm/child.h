@@ -45,6 +45,10 @@ class Child {
   std::string reap(bool kill);
   /// The exit status, -1 when a signal ended it; only after reap().
   int exit_status() const;
+  /// False when its program could not be executed; only after reap().
+  bool started() const;
+  /// The signal that ended it, 0 when none did; only after reap().
+  int signal() const;
 
  private:
   pid_t pid_ = -1;

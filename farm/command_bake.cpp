@@ -25,6 +25,10 @@ void add_bake(CLI::App& app, CommandLine& line) {
       ->add_option("--cell-timeout", options->cell_timeout_s,
                    "Seconds after which a silent worker is replaced [300]")
       ->check(CLI::Range(0.1, 1e6));
+  command
+      ->add_option("--rank-timeout", options->rank_timeout_s,
+                   "Seconds after which others go on with what a silent rank had in hands [60]")
+      ->check(CLI::Range(5.0, 1e6));
   command->add_flag("--fresh", options->fresh, "Start over: remove what an earlier bake left");
   command->add_flag("--dry-run", options->dry_run, "Print what would be done");
   command->add_flag("--no-merge", *no_merge, "Leave the shards; veduta merge makes the file");

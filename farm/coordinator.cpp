@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "farm/grants.h"
 #include "scene/error.h"
 
 namespace veduta {
@@ -11,7 +12,11 @@ namespace veduta {
 using nlohmann::json;
 
 Coordinator::Coordinator(Transport& transport, CoordinatorOptions options, RunLog& log, Progress& progress)
-    : transport_(transport), options_(std::move(options)), log_(log), progress_(progress) {}
+    : transport_(transport),
+      options_(std::move(options)),
+      log_(log),
+      progress_(progress),
+      watch_(transport.size(), options_.rank_timeout_s, 0) {}
 
 void Coordinator::broadcast(const Message& message) {
   for (int rank = 0; rank < transport_.size(); ++rank) transport_.send(rank, message);
@@ -22,6 +27,7 @@ void Coordinator::start() {
   const auto city = read_city_counts(options_.run);
   if (city) {
     tally_.city = *city;
+    remove_unfinished_preparation(options_.run);
     read_done_cells();
     if (tally_.complete()) {
       phase_ = Phase::finishing;
@@ -51,8 +57,15 @@ void Coordinator::read_done_cells() {
   tally_.resumed = tally_.done = journal.done;
   tally_.all_visible = journal.all_visible;
   tally_.renderers.insert(journal.renderers.begin(), journal.renderers.end());
+  // After a kill nothing that was recorded is lost; this is what is.
+  const std::vector<bool> held = cells_in_hands(options_.run.log(), cell_count);
+  const auto in_hands = std::count(held.begin(), held.end(), true);
+  long again = 0;
+  for (uint32_t cell = 0; cell < held.size(); ++cell) again += held[cell] && !done_[cell];
   log_.info("journal", json{{"done", journal.done},
                             {"cells", cell_count},
+                            {"in_hands", in_hands},
+                            {"baked_again", again},
                             {"torn_bytes", journal.torn_bytes},
                             {"duplicates", journal.duplicates},
                             {"conflicts", journal.conflicts}});
@@ -62,10 +75,12 @@ void Coordinator::read_done_cells() {
         json{{"conflicts", journal.conflicts}, {"examples", journal.conflict_examples}},
         fmt::format("{} second answers differ from the first, which counts; both are conservative. {}",
                     journal.conflicts, journal.conflict_examples.front()));
-  if (journal.done == 0 && journal.torn_bytes == 0) return;
-  progress_.note(fmt::format(
-      "continuing: {} of {} cells are done{}", journal.done, cell_count,
-      journal.torn_bytes == 0 ? "" : fmt::format(", {} torn bytes were cut", journal.torn_bytes)));
+  if (journal.done == 0 && journal.torn_bytes == 0 && in_hands == 0) return;
+  std::string line = fmt::format("continuing: {} of {} cells are done", journal.done, cell_count);
+  if (in_hands > 0)
+    line += fmt::format("; {} were in hands when it stopped, {} of them are baked again", in_hands, again);
+  if (journal.torn_bytes > 0) line += fmt::format("; {} torn bytes were cut", journal.torn_bytes);
+  progress_.note(line);
 }
 
 void Coordinator::begin_baking() {
@@ -77,7 +92,10 @@ void Coordinator::begin_baking() {
 }
 
 void Coordinator::handle(int from, const Message& message) {
+  if (watch_.heard(from, watched_.now_s()))
+    log_.warning("rank back", json{{"rank", from}}, watch_.name(from) + " is back");
   if (const auto* ready = std::get_if<ReadyMessage>(&message)) {
+    watch_.introduce(from, ready->host.text(), ready->workers);
     workers_ += ready->workers;
     ready_.insert(from);
   } else if (const auto* waiting = std::get_if<WaitingMessage>(&message)) {
@@ -98,7 +116,7 @@ void Coordinator::handle(int from, const Message& message) {
   } else if (const auto* note = std::get_if<NoteMessage>(&message)) {
     log_.info("note", json{{"rank", from}, {"text", note->text.text()}}, note->text.text());
   } else if (const auto* failed = std::get_if<FailedMessage>(&message)) {
-    throw Error(static_cast<ExitStatus>(failed->status), failed->message.text());
+    throw Error(static_cast<ExitStatus>(failed->status), failed->message.text() + told_by(from));
   } else if (std::holds_alternative<LeftMessage>(message)) {
     left_.insert(from);
     // A rank that was asked to stop takes the others with it.
@@ -147,56 +165,19 @@ void Coordinator::on_cell(const CellMessage& message) {
   tally_.bake_us += message.bake_us;
 }
 
-void Coordinator::on_lost(WorkerId worker, const LostMessage& message) {
-  idle_.erase(worker), open_.erase(worker);
-  ++tally_.retries;
-  log_.info("worker lost",
-            json{{"rank", worker.rank},
-                 {"slot", worker.slot},
-                 {"lease", message.lease},
-                 {"reason", message.reason.text()}},
-            fmt::format("worker {} of rank {} ended: {}", worker.slot, worker.rank, message.reason.text()));
-  const auto poison = book_ && message.lease != 0 ? book_->lease_lost(message.lease, true) : std::nullopt;
-  if (book_) book_->take_back(worker);
-  if (poison) record_all_visible(*poison, message.reason.text());
-  given_up_ += message.given_up;
-  const auto condemned = preparing_ ? preparing_->on_lost(worker, message) : std::nullopt;
-  const bool none_left = ready_.size() == static_cast<size_t>(transport_.size()) && given_up_ == workers_;
-  if (!condemned && !none_left) return;
-  throw Error(
-      ExitStatus::defect,
-      fmt::format("{}: {} ended its worker three times: {}; see {}", options_.run.directory.string(),
-                  condemned    ? fmt::format("the preparation ({})", *condemned)
-                  : preparing_ ? "the preparation"
-                               : "opening the city",
-                  message.reason.text(),
-                  worker_log(options_.run, tally_.attempt, worker.rank, static_cast<uint32_t>(worker.slot))
-                      .string()));
-}
-
-/// Safe, never lost: a cell that cannot be baked sees everything.
-void Coordinator::record_all_visible(uint32_t cell, const std::string& why) {
-  if (!all_visible_)
-    all_visible_ = std::make_unique<ShardWriter>(all_visible_shard_file(options_.run, tally_.attempt),
-                                                 options_.fingerprint,
-                                                 tally_.renderers.empty() ? "" : *tally_.renderers.begin());
-  CellRecord record;
-  record.cell = cell, record.status = CellStatus::all_visible;
-  for (uint32_t object = 0; object < tally_.city.objects; ++object)
-    record.row.push_back({object, completely_visible});
-  all_visible_->append(record);
-  all_visible_->sync();
-  if (!book_->cell_done(0, cell, now_s())) return;
-  ++tally_.done, ++tally_.all_visible;
-  log_.warning(
-      "cell all visible", json{{"cell", cell}, {"reason", why}},
-      fmt::format("cell {} ended its worker three times ({}); it is recorded all visible", cell, why));
-}
-
 void Coordinator::hand_out() {
   for (auto worker = idle_.begin(); worker != idle_.end();) {
+    if (watch_.silent(worker->rank)) {
+      ++worker;
+      continue;
+    }
     const auto lease = book_->grant(*worker, now_s());
     if (!lease) return;  // nor for anybody else
+    log_.info("lease", json{{"rank", worker->rank},
+                            {"slot", worker->slot},
+                            {"lease", lease->id},
+                            {"begin", lease->begin},
+                            {"count", lease->count}});
     GrantMessage grant;
     grant.lease = lease->id, grant.slot = static_cast<uint32_t>(worker->slot);
     grant.begin = lease->begin, grant.count = lease->count;
@@ -206,9 +187,11 @@ void Coordinator::hand_out() {
 }
 
 void Coordinator::tick(bool stop) {
+  watched_.look();
   if (phase_ == Phase::finishing) return;
   if (stop) return finish(true);
-  if (preparing_) preparing_->tick(now_s());
+  for (const int rank : watch_.newly_silent(watched_.now_s())) on_silent(rank);
+  if (preparing_) preparing_->tick(now_s(), watch_);
   if (phase_ != Phase::baking) return;
   if (book_->complete()) return finish(false);
   hand_out();
@@ -230,8 +213,11 @@ void Coordinator::finish(bool drain) {
 }
 
 bool Coordinator::finished() const {
-  return phase_ == Phase::finishing && (left_.size() == static_cast<size_t>(transport_.size()) ||
-                                        Clock::now() - phase_began_ > std::chrono::seconds(10));
+  if (phase_ != Phase::finishing) return false;
+  if (Clock::now() - phase_began_ > std::chrono::seconds(10)) return true;
+  for (int rank = 0; rank < transport_.size(); ++rank)
+    if (!left_.contains(rank) && !watch_.silent(rank)) return false;
+  return true;
 }
 
 }  // namespace veduta

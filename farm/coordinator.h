@@ -11,8 +11,10 @@
 #include "farm/log.h"
 #include "farm/preparing.h"
 #include "farm/progress.h"
+#include "farm/rank_watch.h"
 #include "farm/run_directory.h"
 #include "farm/transport.h"
+#include "farm/watched_time.h"
 #include "pvs/shard.h"
 
 namespace veduta {
@@ -21,6 +23,8 @@ struct CoordinatorOptions {
   RunPaths run;
   std::string fingerprint;
   uint32_t workers_per_rank = 1;
+  double rank_timeout_s =
+      60;  ///< a rank that says nothing for longer is given nothing, and loses what it holds
 };
 
 /// What an attempt came to, for the summary and report.json.
@@ -64,6 +68,8 @@ class Coordinator {
   void wait_for_lease(WorkerId worker);
   void on_cell(const CellMessage& message);
   void on_lost(WorkerId worker, const LostMessage& message);
+  void on_silent(int rank);
+  std::string told_by(int rank) const;
   void record_all_visible(uint32_t cell, const std::string& why);
   void hand_out();
   void broadcast(const Message& message);
@@ -81,6 +87,8 @@ class Coordinator {
   std::set<WorkerId> idle_, open_;  ///< waiting for a lease; with a city loaded
   uint32_t given_up_ = 0, workers_ = 0;
   std::set<int> ready_, left_;
+  WatchedTime watched_;
+  RankWatch watch_;
   std::unique_ptr<ShardWriter> all_visible_;
   Clock::time_point began_ = Clock::now(), phase_began_ = Clock::now();
 };

@@ -25,6 +25,7 @@ class RunLog {
  private:
   void write(const char* level, const std::string& event, const nlohmann::json& members);
   int descriptor_ = -1;
+  bool torn_ = false;  ///< the last line came only in part to the disk
   Verbosity verbosity_;
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 struct Header {
   uint32_t magic = 0x4d544456;  // "VDTM"
-  uint32_t version = 2;
+  uint32_t version = 3;
   uint32_t verb = 0;
   uint32_t size = 0;
 };

@@ -62,6 +62,7 @@ struct GoodbyeMessage {  ///< everything is done: leave the MPI job together
 struct ReadyMessage {  ///< the shepherd has started `workers` children
   static constexpr uint32_t verb = 16;
   uint32_t workers = 0;
+  FixedText<64> host;
 };
 struct WaitingMessage {  ///< the child can do a part of the preparation
   static constexpr uint32_t verb = 17;
@@ -97,6 +98,7 @@ struct LostMessage {  ///< a child died; `lease` is 0 when it held none. `given_
   uint64_t lease = 0;
   uint32_t slot = 0, given_up = 0;
   uint32_t preparing = 0;  ///< it had begun a part of the preparation
+  int32_t status = 0;      ///< an ExitStatus: what the bake ends with when that is no use any more
   FixedText<400> reason;
 };
 struct FailedMessage {  ///< an error that trying again does not mend: the bake stops with it
@@ -111,11 +113,14 @@ struct NoteMessage {  ///< a line for the log
 struct LeftMessage {  ///< children gone, shards synced and closed
   static constexpr uint32_t verb = 25;
 };
+struct HeartbeatMessage {  ///< every two seconds: the shepherd is there, whatever its children do
+  static constexpr uint32_t verb = 26;
+};
 
 using Message =
     std::variant<StartMessage, PrepareMessage, OpenMessage, GrantMessage, FinishMessage, GoodbyeMessage,
                  ReadyMessage, WaitingMessage, PreparedMessage, IdleMessage, CellMessage, LeaseDoneMessage,
-                 LostMessage, FailedMessage, NoteMessage, LeftMessage>;
+                 LostMessage, FailedMessage, NoteMessage, LeftMessage, HeartbeatMessage>;
 
 /// Below the size that OpenMPI sends without waiting for the receiver.
 inline constexpr size_t message_limit = 2048;

@@ -34,6 +34,7 @@ void Preparing::on_prepared(WorkerId worker, const PreparedMessage& message, dou
   const uint32_t parts = book_.parts();
   if (stage == Stage::import) book_.set_size(message.tiles, message.blocks);
   if (stage == Stage::finish) city_ = {message.cells, message.objects, message.triangles};
+  held_.erase(worker);
   ++tally_.runs;
   tally_.worker_s += message.seconds;
   tally_.peak_mb = std::max(tally_.peak_mb, message.peak_mb);
@@ -68,22 +69,37 @@ void Preparing::close_stage(Stage stage, uint32_t parts, double now_s) {
 }
 
 std::optional<std::string> Preparing::on_lost(WorkerId worker, const LostMessage& message) {
-  waiting_.erase(worker);
+  waiting_.erase(worker), held_.erase(worker);
   const auto condemned = book_.lost(worker, message.preparing != 0);
   if (!condemned) return std::nullopt;
-  return fmt::format("{}, part {} of {}", name_of(condemned->stage), condemned->part + 1, book_.parts());
+  return text(*condemned);
 }
 
-void Preparing::tick(double now_s) {
+std::optional<std::string> Preparing::in_hands_of(int rank) const {
+  for (const auto& [worker, part] : held_)
+    if (worker.rank == rank) return text(part);
+  return std::nullopt;
+}
+
+std::string Preparing::text(const PreparationPart& part) const {
+  return fmt::format("{}, part {} of {}", name_of(part.stage), part.part + 1, book_.parts());
+}
+
+void Preparing::tick(double now_s, const RankWatch& watch) {
   if (book_.complete()) return;
   save(now_s);
   for (auto worker = waiting_.begin(); worker != waiting_.end();) {
+    if (watch.silent(worker->first.rank)) {
+      ++worker;
+      continue;
+    }
     const auto part = book_.grant(worker->first);
     if (!part) break;
     PrepareMessage message;
     message.slot = static_cast<uint32_t>(worker->first.slot), message.life = worker->second;
     message.stage = static_cast<uint32_t>(part->stage), message.part = part->part;
     transport_.send(worker->first.rank, message);
+    held_[worker->first] = *part;
     worker = waiting_.erase(worker);
   }
   progress_.stage(name_of(book_.stage()), book_.finished(), book_.finished() + book_.outstanding());

@@ -9,6 +9,7 @@
 #include "farm/log.h"
 #include "farm/preparation_book.h"
 #include "farm/progress.h"
+#include "farm/rank_watch.h"
 #include "farm/run_directory.h"
 #include "farm/transport.h"
 
@@ -35,14 +36,17 @@ class Preparing {
   void on_prepared(WorkerId worker, const PreparedMessage& message, double now_s);
   /// \return what the preparation cannot get over: "flood, part 3 of 20", after three deaths over one part.
   std::optional<std::string> on_lost(WorkerId worker, const LostMessage& message);
-  /// Hands parts out and shows progress.
-  void tick(double now_s);
+  /// Hands parts out, to no silent rank, and shows progress.
+  void tick(double now_s, const RankWatch& watch);
+  /// What a worker of the rank is doing: "shrink, part 3 of 20".
+  std::optional<std::string> in_hands_of(int rank) const;
 
   bool complete() const { return book_.complete(); }
   const CityCounts& city() const { return city_; }
   const std::vector<StageTally>& stages() const { return stages_; }
 
  private:
+  std::string text(const PreparationPart& part) const;
   void close_stage(Stage stage, uint32_t parts, double now_s);
   void save(double now_s);
 
@@ -52,6 +56,7 @@ class Preparing {
   Progress& progress_;
   PreparationBook book_;
   std::map<WorkerId, uint32_t> waiting_;  ///< and the child's life, for its PrepareMessage
+  std::map<WorkerId, PreparationPart> held_;
   CityCounts city_;
   StageTally tally_;  ///< of the stage now
   std::vector<StageTally> stages_;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <poll.h>
+#include <signal.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -17,9 +19,15 @@ using nlohmann::json;
 constexpr int deaths_allowed_before_open = 3;
 // mpirun sends SIGKILL two seconds after SIGTERM: what is not finished by then is lost anyway.
 constexpr auto stop_patience = std::chrono::milliseconds(1200);
-constexpr auto sync_interval = std::chrono::seconds(1);
+constexpr auto sync_interval = std::chrono::seconds(1), heartbeat_interval = std::chrono::seconds(2);
 constexpr uint64_t sync_bytes = 16u << 20;
 constexpr double prepare_timeout_s = 3600, open_timeout_s = 600;
+
+std::string host_name() {
+  char host[64] = {};
+  gethostname(host, sizeof host - 1);
+  return host;
+}
 
 std::string absolute_directory(const RunPaths& run) {
   return std::filesystem::absolute(run.directory).string();
@@ -37,7 +45,7 @@ void Shepherd::handle(const Message& message) {
     if (transport_.rank() != 0) require_shared_run(options_.run, job_.fingerprint.text());
     for (uint32_t number = 0; number < slots_.size(); ++number) spawn(number);
     ReadyMessage ready;
-    ready.workers = options_.workers;
+    ready.workers = options_.workers, ready.host = FixedText<64>(host_name());
     tell(ready);
   } else if (const auto* part = std::get_if<PrepareMessage>(&message)) {
     prepare(*part);
@@ -70,7 +78,7 @@ void Shepherd::spawn(uint32_t number) {
   if (!std::getenv("LP_NUM_THREADS"))
     command.environment.emplace_back("LP_NUM_THREADS", std::to_string(options_.threads_per_worker));
   slot.child = std::make_unique<Child>(command);
-  slot.lease = 0, slot.last_words.clear(), ++slot.life;
+  slot.lease = 0, slot.last_words.clear(), slot.failed_status = 0, ++slot.life;
   set(slot, Task::starting);
 }
 
@@ -104,6 +112,8 @@ void Shepherd::prepare(const PrepareMessage& message) {
 }
 
 void Shepherd::step(int wait_ms) {
+  watched_.look();
+  send_heartbeat();
   std::vector<pollfd> polled;
   std::vector<uint32_t> numbers;
   for (uint32_t number = 0; number < slots_.size(); ++number)
@@ -138,14 +148,21 @@ void Shepherd::take_output(uint32_t number) {
 void Shepherd::on_death(uint32_t number, const std::string& why) {
   Slot& slot = slots_[number];
   const std::string ending = slot.child->reap(!why.empty());
+  const bool killed = slot.child->signal() == SIGKILL, started = slot.child->started();
   slot.child.reset();
   if (stop_until_) return;
+  if (!started && slot.task == Task::starting)
+    throw Error(ExitStatus::input_output,
+                last_line(worker_log(options_.run, job_.attempt, transport_.rank(), number)));
   // What it does to a part or a cell is counted there; a child that cannot begin is its slot's fault.
   if (slot.task == Task::starting || slot.task == Task::opening) ++slot.deaths_before_open;
   LostMessage lost;
   lost.lease = slot.lease, lost.slot = number, lost.preparing = slot.task == Task::preparing;
   lost.given_up = slot.deaths_before_open >= deaths_allowed_before_open;
+  lost.status = slot.failed_status != 0 ? slot.failed_status : static_cast<int>(ExitStatus::defect);
   std::string reason = why.empty() ? ending : why;
+  // Nothing else says so: the kernel leaves a line in its own log only.
+  if (why.empty() && killed) reason += ", as by the kernel when memory runs out";
   // What it said last, in a frame or, like a library that aborts, on its standard error.
   if (slot.last_words.empty())
     slot.last_words = last_line(worker_log(options_.run, job_.attempt, transport_.rank(), number));
@@ -160,12 +177,18 @@ void Shepherd::check_silence() {
     const Slot& slot = slots_[number];
     if (!slot.child || slot.task == Task::idle || slot.task == Task::waiting || slot.task == Task::leaving)
       continue;
-    const double silent_s = std::chrono::duration<double>(Clock::now() - slot.last_sign).count();
+    const double silent_s = watched_.now_s() - slot.last_sign_s;
     const double limit_s = slot.task == Task::baking      ? options_.cell_timeout_s
                            : slot.task == Task::preparing ? prepare_timeout_s
                                                           : open_timeout_s;
     if (silent_s > limit_s) on_death(number, fmt::format("silent for {:.0f} s, killed", silent_s));
   }
+}
+
+void Shepherd::send_heartbeat() {
+  if (left_ || Clock::now() - last_heartbeat_ < heartbeat_interval) return;
+  last_heartbeat_ = Clock::now();
+  tell(HeartbeatMessage{});
 }
 
 void Shepherd::sync_when_due() {

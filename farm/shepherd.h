@@ -11,6 +11,7 @@
 
 #include "farm/child.h"
 #include "farm/transport.h"
+#include "farm/watched_time.h"
 #include "merge/merge.h"
 #include "pvs/shard.h"
 
@@ -51,16 +52,17 @@ class Shepherd {
     std::unique_ptr<ShardWriter> shard;
     Task task = Task::starting;
     std::string renderer, last_words;  ///< last_words: of a `failed` frame
+    int failed_status = 0;             ///< of the same
     uint64_t lease = 0;
     uint32_t begin = 0, count = 0;  ///< the lease's cells
     uint32_t stage = 0, part = 0;   ///< what it prepares
     uint32_t life = 0;              ///< children that were started in this slot
     int deaths_before_open = 0;
-    Clock::time_point last_sign;
+    double last_sign_s = 0;  ///< of watched_
   };
 
   void spawn(uint32_t number);
-  void set(Slot& slot, Task task) { slot.task = task, slot.last_sign = Clock::now(); }
+  void set(Slot& slot, Task task) { slot.task = task, slot.last_sign_s = watched_.now_s(); }
   void next_task(uint32_t number);
   void prepare(const PrepareMessage& message);
   void take_output(uint32_t number);
@@ -70,6 +72,7 @@ class Shepherd {
   void on_failed(Slot& slot, const Frame& frame);
   void on_death(uint32_t number, const std::string& why);
   void check_silence();
+  void send_heartbeat();
   void sync_when_due();
   void leave_when_empty();
   void tell(const Message& message) { transport_.send(0, message); }
@@ -78,6 +81,8 @@ class Shepherd {
   ShepherdOptions options_;
   std::vector<Slot> slots_;
   StartMessage job_;
+  WatchedTime watched_;
+  Clock::time_point last_heartbeat_;
   uint64_t unsynced_bytes_ = 0;
   Clock::time_point last_sync_ = Clock::now();
   std::optional<Clock::time_point> stop_until_;

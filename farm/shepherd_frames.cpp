@@ -22,7 +22,7 @@ json parsed(const Frame& frame) {
 
 void Shepherd::on_frame(uint32_t number, const Frame& frame) {
   Slot& slot = slots_[number];
-  slot.last_sign = Clock::now();
+  slot.last_sign_s = watched_.now_s();
   if (frame.verb == Verb::hello) {
     if (parsed(frame).value("version", 0) != protocol_version)
       throw Error(ExitStatus::input_output,
@@ -109,9 +109,9 @@ void Shepherd::on_record(uint32_t number, const Frame& frame) {
 void Shepherd::on_failed(Slot& slot, const Frame& frame) {
   const json failed = parsed(frame);
   const int status = failed.value("status", static_cast<int>(ExitStatus::defect));
-  slot.last_words = failed.value("message", "");
-  // A defect is worth another try, like a crash. What the user must mend is not.
-  if (status == static_cast<int>(ExitStatus::defect)) return;
+  slot.last_words = failed.value("message", ""), slot.failed_status = status;
+  // A defect is worth another try, like a crash, and so is want of memory. What the user must mend is not.
+  if (status == static_cast<int>(ExitStatus::defect) || failed.value("again", false)) return;
   throw Error(static_cast<ExitStatus>(status), slot.last_words);
 }
 

@@ -2,14 +2,18 @@
 
 #include <signal.h>
 #include <time.h>
+#include <unistd.h>
 
 #include <atomic>
+
+#include "scene/error.h"
 
 namespace veduta {
 namespace {
 
-std::atomic<bool> stop{false}, at_once{false};
+std::atomic<bool> stop{false};
 std::atomic<long> first_interrupt_ms{0};
+std::string last_words_text;  // not changed once the signals are caught
 
 long now_ms() {
   timespec now{};
@@ -22,15 +26,19 @@ void on_signal(int number) {
   if (number != SIGINT) return;
   // The same Ctrl-C may arrive twice, through the terminal and through a launcher; a person is slower than
   // that.
-  if (first_interrupt_ms == 0)
+  if (first_interrupt_ms == 0) {
     first_interrupt_ms = now_ms();
-  else if (now_ms() - first_interrupt_ms > 300)
-    at_once = true;
+  } else if (now_ms() - first_interrupt_ms > 300) {
+    [[maybe_unused]] const ssize_t wrote =
+        write(STDERR_FILENO, last_words_text.data(), last_words_text.size());
+    _exit(static_cast<int>(ExitStatus::stopped_early));
+  }
 }
 
 }  // namespace
 
-void install_stop_signals() {
+void install_stop_signals(const std::string& last_words) {
+  if (!last_words.empty()) last_words_text = "\n" + last_words + "\n";
   struct sigaction action = {};
   action.sa_handler = on_signal;
   sigemptyset(&action.sa_mask);
@@ -43,9 +51,6 @@ void install_stop_signals() {
 
 bool stop_requested() {
   return stop;
-}
-bool stop_at_once_requested() {
-  return at_once;
 }
 
 }  // namespace veduta

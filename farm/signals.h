@@ -1,13 +1,16 @@
-// Asking a running bake to stop: SIGTERM, SIGINT and SIGUSR1 (Slurm, mpirun and people send them, some of
-// them twice).
+// Being asked to stop: SIGTERM, SIGINT and SIGUSR1 (DESIGN §8).
 #pragma once
+
+#include <string>
 
 namespace veduta {
 
-void install_stop_signals();
-/// Some stop signal came.
+/// Catches them: the first asks to stop soon. A second Ctrl-C ends this process at once with
+/// ExitStatus::stopped_early, wherever it is; its children go with it, and what is in the shards counts.
+/// \param last_words  a line for standard error then; empty: none
+void install_stop_signals(const std::string& last_words);
+
+/// Was any of them received?
 bool stop_requested();
-/// A person pressed Ctrl-C again.
-bool stop_at_once_requested();
 
 }  // namespace veduta

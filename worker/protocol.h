@@ -37,7 +37,8 @@ enum class Verb : uint32_t {
   opened = 18,      ///< {"renderer", "cells"}
   cell_baked = 19,  ///< encode(CellRecord)
   lease_done = 20,  ///< {}
-  failed = 21,      ///< {"status", "message"}: an Error; the worker then leaves with that status
+  failed = 21,      ///< {"status", "message", "again"}: an Error; the worker then leaves with that status.
+                    ///< `again`: for want of memory, so that another try is worth it
 };
 
 /// On the wire: u32 magic, u32 verb, u64 payload length, payload; little-endian.

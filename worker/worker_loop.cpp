@@ -61,8 +61,10 @@ class Worker {
     return true;
   }
 
-  void fail(const Error& error) {
-    say(Verb::failed, {{"status", static_cast<int>(error.status())}, {"message", error.what()}});
+  /// `again`: the next worker may get over it.
+  void fail(const Error& error, bool again = false) {
+    say(Verb::failed,
+        {{"status", static_cast<int>(error.status())}, {"message", error.what()}, {"again", again}});
   }
 
  private:
@@ -143,8 +145,10 @@ int run_worker(int input, int output, const std::string& gpu) {
     } catch (const Error&) {
       throw;
     } catch (const std::bad_alloc&) {
-      throw Error(ExitStatus::input_output,
-                  "worker: out of memory; use fewer workers a host or a larger navigation.seed_size");
+      worker.fail(Error(ExitStatus::input_output,
+                        "worker: out of memory; use fewer --workers or a larger navigation.seed_size"),
+                  true);
+      return static_cast<int>(ExitStatus::input_output);
     } catch (const std::exception& error) {
       throw Error(ExitStatus::defect, std::string("worker: ") + error.what());
     }
