@@ -113,7 +113,7 @@ TEST_F(Bake, SignalsStopItResumably) {
   for (const int number : {SIGTERM, SIGINT, SIGUSR1}) {
     const auto process = start(bake(), slow);
     ASSERT_TRUE(in_the_middle());
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    ASSERT_TRUE(within(20, [&] { return !descendants(process->pid(), "fake_worker").empty(); }));
     kill(process->pid(), number);
     kill(process->pid(), number);
     EXPECT_EQ(process->wait(), 75) << process->output();
