@@ -10,13 +10,13 @@
 // them. Everything that a bake asks of its coordinator happens, in simulated time.
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "bench/cell_times.h"
 #include "bench/farm_simulation.h"
 #include "bench/processor_time.h"
 #include "farm/leases.h"
@@ -25,15 +25,6 @@ namespace veduta::bench {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::vector<double> read_cell_times(const std::string& name) {
-  std::ifstream file(name);
-  if (!file) throw std::runtime_error(name + ": cannot be read");
-  std::vector<double> seconds;
-  for (std::string line; std::getline(file, line);)
-    if (!line.empty() && line.front() != '#') seconds.push_back(1e-6 * std::stod(line));
-  return seconds;
-}
 
 /// Workers take a lease each and answer a cell each in turn, for at most so many leases.
 Json measure_book(const Json& in) {
