@@ -16,7 +16,7 @@
 #include "pvs/pvs_file.h"
 #include "pvs/run_paths.h"
 #include "scene/error.h"
-#include "worker/occluder_file.h"
+#include "worker/clustered_occluders.h"
 #include "worker/preparation.h"
 
 namespace veduta::bench {
@@ -104,7 +104,7 @@ PreparedCity open_city(const OcclusionJob& job) {
     prepared.settings = load_settings(run.settings());
   }
   prepared.city = read_city(run.city());
-  prepared.windows = read_occluder_file(run.occluders());
+  prepared.occluders = ClusteredOccluders::map(run.occluders());
   if (job.max_overestimate > 0) prepared.settings.occlusion.max_overestimate = job.max_overestimate;
   return prepared;
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "pvs/city.h"
-#include "worker/occluders.h"
+#include "worker/clustered_occluders.h"
 #include "worker/settings.h"
 
 namespace veduta::bench {
@@ -35,7 +35,7 @@ OcclusionJob occlusion_job(const nlohmann::ordered_json& in);
 /// A prepared city, as a worker opens it.
 struct PreparedCity {
   City city;
-  std::vector<WindowOccluders> windows;
+  ClusteredOccluders occluders = std::vector<WindowOccluders>{};
   Settings settings;     ///< with the job's `max_overestimate`
   double prepare_s = 0;  ///< 0: it was prepared before
 };

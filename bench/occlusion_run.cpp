@@ -65,7 +65,7 @@ MethodRun run_method(const std::string& name, const PreparedCity& prepared, std:
   auto begin = Clock::now();
   const EglContext context(job.gpu);
   run.renderer = context.renderer(), run.gl_version = context.version();
-  const auto method = make_occlusion_method(name, {city, slices, prepared.windows, settings});
+  const auto method = make_occlusion_method(name, {city, slices, prepared.occluders, settings});
   method->bake(cells.first(1), [](const CellOcclusion&) {});
   run.set_up_s = ms_since(begin) / 1000;
 

@@ -13,7 +13,7 @@ struct RunPaths {
   std::filesystem::path log() const { return directory / "log.jsonl"; }
   std::filesystem::path prepared() const { return directory / "prepared"; }
   std::filesystem::path city() const { return directory / "prepared" / "city.h5"; }
-  std::filesystem::path occluders() const { return directory / "prepared" / "occluders.bin"; }
+  std::filesystem::path occluders() const { return directory / "prepared" / "occluder_clusters.bin"; }
   std::filesystem::path shards() const { return directory / "shards"; }
   std::filesystem::path report() const { return directory / "report.json"; }
   std::filesystem::path result() const { return directory / "city.pvs.h5"; }

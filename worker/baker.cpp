@@ -13,16 +13,14 @@ int local_rank() {
 
 }  // namespace
 
-Baker::Baker(City city, std::vector<WindowOccluders> occluders, const Settings& settings,
-             const std::string& gpu)
+Baker::Baker(City city, const ClusteredOccluders& occluders, const Settings& settings, const std::string& gpu)
     : city_(std::move(city)),
       settings_(settings),
       context_(gpu, local_rank()),
-      occluders_(std::move(occluders)),
       counts_(city_.scene, city_.slices, city_.triangle_slices),
       slice_boxes_(slice_boxes(city_.scene, city_.slices, city_.triangle_slices)),
-      method_(
-          make_occlusion_method(settings.occlusion.method, {city_, slice_boxes_, occluders_, settings_})) {}
+      method_(make_occlusion_method(settings.occlusion.method, {city_, slice_boxes_, occluders, settings_})) {
+}
 
 void Baker::bake(std::span<const uint32_t> cells, const std::function<void(const CellRecord&)>& done) {
   auto began = std::chrono::steady_clock::now();

@@ -17,7 +17,7 @@ namespace veduta {
 class Baker {
  public:
   /// Makes a GL context on the chosen device and loads the city into it.
-  Baker(City city, std::vector<WindowOccluders> occluders, const Settings& settings, const std::string& gpu);
+  Baker(City city, const ClusteredOccluders& occluders, const Settings& settings, const std::string& gpu);
 
   uint32_t cell_count() const { return static_cast<uint32_t>(city_.cells.size()); }
   std::string renderer() const { return context_.renderer(); }
@@ -30,7 +30,6 @@ class Baker {
   City city_;
   Settings settings_;
   EglContext context_;
-  std::vector<WindowOccluders> occluders_;
   TriangleCounts counts_;
   SliceBoxes slice_boxes_;
   std::unique_ptr<OcclusionMethod> method_;

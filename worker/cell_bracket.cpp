@@ -77,11 +77,13 @@ void CellBracket::add_node(int parts, int i, int j, Generation& generation) cons
   const Navigation& navigation = input_.city.navigation;
   const Box eyes = navigable_part(navigation.free, {lower, lower + step}, navigation.free.leaf_size_m);
   if (eyes.empty()) return;
-  const auto window = smallest_window(input_.windows, window_around(input_.settings, eyes));
+  const auto window =
+      smallest_window(input_.occluders.half_extents_m(), window_around(input_.settings, eyes));
   if (!window) throw Error(ExitStatus::defect, "occlusion: there are no occluders for parts of this size");
   Node node{parts, i, j, eyes.center(), *window, false, static_cast<uint32_t>(generation.items.size()), 0};
-  node.smallest = parts >= input_.settings.occlusion.subdivide ||
-                  smallest_window(input_.windows, glm::dvec3(0, 0, eyes.half_extent().z)) == window;
+  node.smallest =
+      parts >= input_.settings.occlusion.subdivide ||
+      smallest_window(input_.occluders.half_extents_m(), glm::dvec3(0, 0, eyes.half_extent().z)) == window;
   generation.nodes.push_back(node);
 }
 

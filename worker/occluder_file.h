@@ -1,5 +1,5 @@
-// Occluders on disk, private to the workers: of a block while a city is prepared, of the whole city after
-// that.
+// Occluders of a block on disk, while a city is prepared. clustered_occluders.h has those of the prepared
+// city.
 #pragma once
 
 #include <filesystem>

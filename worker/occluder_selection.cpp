@@ -8,35 +8,6 @@
 namespace veduta {
 namespace {
 
-constexpr size_t cluster_size = 32;  // bodies: small enough to cull well, large enough to be worth a test
-
-/// The bits of v, each followed by a 0.
-uint64_t spread_bits(uint32_t v) {
-  uint64_t x = v;
-  x = (x | x << 16) & 0x0000ffff0000ffffULL;
-  x = (x | x << 8) & 0x00ff00ff00ff00ffULL;
-  x = (x | x << 4) & 0x0f0f0f0f0f0f0f0fULL;
-  x = (x | x << 2) & 0x3333333333333333ULL;
-  return (x | x << 1) & 0x5555555555555555ULL;
-}
-
-/// Bodies along a Morton curve of the centres of their bounds, so that neighbours share a cluster.
-std::vector<uint32_t> sorted_by_place(const std::vector<Box>& bounds) {
-  Box all;
-  for (const Box& b : bounds) all.extend(b);
-  const glm::vec3 scale = 65535.0f / glm::max(all.upper - all.lower, glm::vec3(1e-3f));
-  std::vector<std::pair<uint64_t, uint32_t>> keys;
-  for (uint32_t b = 0; b < bounds.size(); ++b) {
-    const glm::vec3 p = (bounds[b].center() - all.lower) * scale;
-    keys.emplace_back(spread_bits(static_cast<uint32_t>(p.x)) | spread_bits(static_cast<uint32_t>(p.y)) << 1,
-                      b);
-  }
-  std::sort(keys.begin(), keys.end());
-  std::vector<uint32_t> sorted;
-  for (const auto& key : keys) sorted.push_back(key.second);
-  return sorted;
-}
-
 Box relative_to(const Box& box, const glm::vec3& eye) {
   return {box.lower - eye, box.upper - eye};
 }
@@ -49,52 +20,14 @@ bool reaches(const FaceView& view, const Box& b, float nearest_m) {
          b.upper.y >= view.bottom * (b.upper.y < 0 ? b.upper.z : nearest_m);
 }
 
-/// Twice the area of a polygon along its normal.
-glm::dvec3 area_vector(const glm::vec3* corners, uint32_t count) {
-  glm::dvec3 sum(0);
-  const glm::dvec3 origin(corners[0]);
-  for (uint32_t c = 1; c + 1 < count; ++c)
-    sum += glm::cross(glm::dvec3(corners[c]) - origin, glm::dvec3(corners[c + 1]) - origin);
-  return sum;
-}
-
 }  // namespace
 
-OccluderSelection::OccluderSelection(const std::vector<OccluderRing>& rings) {
+OccluderSelection::OccluderSelection(ClusteredOccluders occluders, size_t window)
+    : occluders_(std::move(occluders)) {
   float from = 0;
-  for (const OccluderRing& ring : rings) {
-    RingClusters clusters{from, ring.depth_limit_m, {}};
+  for (const ClusteredRing& ring : occluders_.windows()[window].rings) {
+    rings_.push_back({from, ring.depth_limit_m, ring.first_cluster, ring.bounds});
     from = ring.depth_limit_m;
-    std::vector<Box> bounds;
-    for (size_t b = 0; b < ring.occluders.bodies(); ++b) bounds.push_back(ring.occluders.bounds(b));
-    const std::vector<uint32_t> sorted = sorted_by_place(bounds);
-    for (size_t b = 0; b < sorted.size(); b += cluster_size) {
-      Cluster cluster{{},
-                      static_cast<uint32_t>(bodies_.size()),
-                      static_cast<uint32_t>(std::min(cluster_size, sorted.size() - b))};
-      for (size_t n = b; n < b + cluster.count; ++n) {
-        cluster.bounds.extend(bounds[sorted[n]]);
-        bodies_.push_back({bounds[sorted[n]], static_cast<uint32_t>(polygons_.size())});
-        add_body(ring.occluders, sorted[n]);
-      }
-      clusters.clusters.push_back(cluster);
-    }
-    rings_.push_back(std::move(clusters));
-  }
-  bodies_.push_back({{}, static_cast<uint32_t>(polygons_.size())});
-  polygons_.push_back({{}, static_cast<uint32_t>(corners_.size())});
-}
-
-/// Faces without an area face nobody.
-void OccluderSelection::add_body(const OccluderMesh& mesh, size_t body) {
-  for (uint32_t f = mesh.body_begin[body]; f < mesh.body_begin[body + 1]; ++f) {
-    const glm::vec3* corners = &mesh.corners[mesh.face_begin[f]];
-    const uint32_t count = mesh.face_begin[f + 1] - mesh.face_begin[f];
-    const glm::dvec3 area = area_vector(corners, count);
-    const double length = glm::length(area);
-    if (!(length > 1e-12)) continue;
-    polygons_.push_back({glm::vec3(area / length), static_cast<uint32_t>(corners_.size())});
-    corners_.insert(corners_.end(), corners, corners + count);
   }
 }
 
@@ -119,37 +52,38 @@ void OccluderSelection::select_ring(const RingClusters& ring, int face, const gl
                          horizon.hidden_below(box, nearest_m, view.left, view.right));
   };
   clusters_by_depth_.clear();
-  for (uint32_t c = 0; c < ring.clusters.size(); ++c) {
-    if (needed(ring.clusters[c].bounds)) clusters_by_depth_.push_back({nearest_m, c});
+  for (uint32_t c = 0; c < ring.bounds.size(); ++c) {
+    if (needed(ring.bounds[c])) clusters_by_depth_.push_back({nearest_m, c});
   }
   std::sort(clusters_by_depth_.begin(), clusters_by_depth_.end());
   for (const Near& near : clusters_by_depth_) {
-    const Cluster& cluster = ring.clusters[near.index];
-    if (!needed(cluster.bounds)) continue;  // the horizon has risen since
+    if (!needed(ring.bounds[near.index])) continue;  // the horizon has risen since
+    const OccluderCluster cluster = occluders_.cluster(ring.first + near.index);
     bodies_by_depth_.clear();
-    for (uint32_t b = cluster.first; b < cluster.first + cluster.count; ++b) {
-      if (needed(bodies_[b].bounds)) bodies_by_depth_.push_back({nearest_m, b});
+    for (uint32_t b = 0; b < cluster.count(); ++b) {
+      if (needed(cluster.bodies[b].bounds)) bodies_by_depth_.push_back({nearest_m, b});
     }
     std::sort(bodies_by_depth_.begin(), bodies_by_depth_.end());
     for (const Near& candidate : bodies_by_depth_) {
-      const Body& body = bodies_[candidate.index];
-      if (needed(body.bounds))
-        draw_body(body, face, eye, ring.depth_limit_m, view, side ? &horizon : nullptr);
+      if (needed(cluster.bodies[candidate.index].bounds))
+        draw_body(cluster, candidate.index, face, eye, ring.depth_limit_m, view, side ? &horizon : nullptr);
     }
   }
 }
 
 /// A polygon that is seen edge on may fall on either side of rounding: drawn, it is a part of the occluder
 /// like any other; left out, it covers less than a pixel.
-void OccluderSelection::draw_body(const Body& body, int face, const glm::vec3& eye, float depth_limit_m,
-                                  const FaceView& view, Horizon* horizon) {
+void OccluderSelection::draw_body(const OccluderCluster& cluster, uint32_t body, int face,
+                                  const glm::vec3& eye, float depth_limit_m, const FaceView& view,
+                                  Horizon* horizon) {
   const glm::mat3 rotation = face_from_world(face);
-  const uint32_t end = (&body)[1].first;
-  for (uint32_t p = body.first; p < end; ++p) {
-    const glm::vec3* corners = &corners_[polygons_[p].first];
+  const std::span<const OccluderPolygon> polygons = cluster.polygons;
+  const uint32_t end = cluster.bodies[body + 1].first_polygon;
+  for (uint32_t p = cluster.bodies[body].first_polygon; p < end; ++p) {
+    const glm::vec3* corners = cluster.corners + polygons[p].first_corner;
     const glm::vec3 first = corners[0] - eye;
-    if (glm::dot(polygons_[p].normal, first) >= 0) continue;  // turned away
-    const uint32_t count = polygons_[p + 1].first - polygons_[p].first;
+    if (glm::dot(polygons[p].normal, first) >= 0) continue;  // turned away
+    const uint32_t count = polygons[p + 1].first_corner - polygons[p].first_corner;
     turned_.clear();
     FaceView around{1e30f, -1e30f, 1e30f, -1e30f};
     float nearest_m = 1e30f;

@@ -5,8 +5,8 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
+#include "worker/clustered_occluders.h"
 #include "worker/horizon.h"
-#include "worker/occluders.h"
 
 namespace veduta {
 
@@ -21,7 +21,8 @@ struct FaceView {
 /// The occluders of one size of window.
 class OccluderSelection {
  public:
-  explicit OccluderSelection(const std::vector<OccluderRing>& rings);
+  /// Of one of the windows.
+  OccluderSelection(ClusteredOccluders occluders, size_t window);
 
   /// The polygons that matter to a face, of the nearest bodies first, as quads of four vertices each: a
   /// polygon of more corners is a fan of quads, and one with an odd number of corners ends with a quad whose
@@ -33,21 +34,10 @@ class OccluderSelection {
   const std::vector<OccluderVertex>& select(int face, const glm::vec3& eye, const FaceView& view = {});
 
  private:
-  struct Polygon {
-    glm::vec3 normal;  // outwards, unit length
-    uint32_t first;    // corner
-  };
-  struct Body {
-    Box bounds;
-    uint32_t first;  // polygon
-  };
-  struct Cluster {
-    Box bounds;
-    uint32_t first, count;  // bodies
-  };
   struct RingClusters {
     float depth_from_m, depth_limit_m;
-    std::vector<Cluster> clusters;
+    uint32_t first;  // cluster
+    std::span<const Box> bounds;
   };
   struct Near {
     float depth_m;
@@ -57,16 +47,13 @@ class OccluderSelection {
     }
   };
 
-  void add_body(const OccluderMesh& mesh, size_t body);
   void select_ring(const RingClusters& ring, int face, const glm::vec3& eye, const FaceView& view,
                    Horizon& horizon);
-  void draw_body(const Body& body, int face, const glm::vec3& eye, float depth_limit_m, const FaceView& view,
-                 Horizon* horizon);
+  void draw_body(const OccluderCluster& cluster, uint32_t body, int face, const glm::vec3& eye,
+                 float depth_limit_m, const FaceView& view, Horizon* horizon);
 
+  ClusteredOccluders occluders_;
   std::vector<RingClusters> rings_;
-  std::vector<Body> bodies_;       // and one more, which ends the last
-  std::vector<Polygon> polygons_;  // and one more
-  std::vector<glm::vec3> corners_;
   std::vector<Near> clusters_by_depth_, bodies_by_depth_;
   std::vector<glm::vec3> turned_;  // corners of the polygon at hand, in face coordinates
   std::vector<OccluderVertex> vertices_;

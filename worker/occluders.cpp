@@ -48,14 +48,14 @@ void OccluderMesh::append(const OccluderMesh& other) {
   for (size_t b = 1; b < other.body_begin.size(); ++b) body_begin.push_back(face + other.body_begin[b]);
 }
 
-std::optional<uint32_t> smallest_window(const std::vector<WindowOccluders>& windows,
+std::optional<uint32_t> smallest_window(const std::vector<glm::dvec3>& windows_m,
                                         const glm::dvec3& half_extent_m) {
   const auto volume = [](const glm::dvec3& e) { return e.x * e.y * e.z; };
   std::optional<uint32_t> smallest;
-  for (uint32_t w = 0; w < windows.size(); ++w) {
-    const glm::dvec3& e = windows[w].half_extent_m;
+  for (uint32_t w = 0; w < windows_m.size(); ++w) {
+    const glm::dvec3& e = windows_m[w];
     if (glm::any(glm::lessThan(e, half_extent_m))) continue;
-    if (!smallest || volume(e) < volume(windows[*smallest].half_extent_m)) smallest = w;
+    if (!smallest || volume(e) < volume(windows_m[*smallest])) smallest = w;
   }
   return smallest;
 }

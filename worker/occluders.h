@@ -49,9 +49,10 @@ struct WindowOccluders {
   std::vector<OccluderRing> rings;
 };
 
-/// The smallest window that holds a part of this half-extent (eye margin included): what its occluders hide
-/// from a centre is hidden from all of the part around it. None where all are too small.
-std::optional<uint32_t> smallest_window(const std::vector<WindowOccluders>& windows,
+/// Of windows of these half-extents the smallest that holds a part of this half-extent (eye margin included):
+/// what its occluders hide from a centre is hidden from all of the part around it. None where all are too
+/// small.
+std::optional<uint32_t> smallest_window(const std::vector<glm::dvec3>& windows_m,
                                         const glm::dvec3& half_extent_m);
 
 }  // namespace veduta

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "pvs/city.h"
-#include "worker/occluders.h"
+#include "worker/clustered_occluders.h"
 #include "worker/settings.h"
 #include "worker/slices.h"
 
@@ -30,11 +30,11 @@ struct CellOcclusion {
   uint32_t seen_objects = 0;
 };
 
-/// What a city is baked from; all of it outlives the method.
+/// What a city is baked from; what it refers to outlives the method.
 struct OcclusionInput {
   const City& city;
   const SliceBoxes& slices;
-  const std::vector<WindowOccluders>& windows;
+  ClusteredOccluders occluders;
   const Settings& settings;
 };
 

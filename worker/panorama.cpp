@@ -30,9 +30,9 @@ void put(GLenum target, size_t bytes, const void* data) {
 
 /// The fewest pixels along a face for which no pixel of a ring is wider than its h where it is drawn (T3);
 /// a power of two.
-int pixels_for(const WindowOccluders& window) {
+int pixels_for(const ClusteredWindow& window) {
   double needed = FacePanes::alignment;
-  for (const OccluderRing& ring : window.rings)
+  for (const ClusteredRing& ring : window.rings)
     needed = std::max(needed, ring.depth_limit_m * (1 + snapping) / ring.h_m * (1 - 1e-6));
   int pixels = FacePanes::alignment;
   while (pixels < needed) pixels *= 2;
@@ -42,13 +42,13 @@ int pixels_for(const WindowOccluders& window) {
 }  // namespace
 
 struct Panorama::State {
-  State(const std::vector<Box>& objects, const std::vector<Box>& slices,
-        const std::vector<WindowOccluders>& occluders)
+  State(const std::vector<Box>& objects, const std::vector<Box>& slices, const ClusteredOccluders& occluders)
       : object_boxes(objects), slice_boxes(slices), tests(objects, slices) {
     int resolution = FacePanes::alignment;  // of the largest
-    for (const WindowOccluders& window : occluders) {
+    for (size_t w = 0; w < occluders.windows().size(); ++w) {
+      const ClusteredWindow& window = occluders.windows()[w];
       const int pixels = pixels_for(window);
-      windows.push_back({window.half_extent_m, pixels, OccluderSelection(window.rings), FacePanes(pixels)});
+      windows.push_back({window.half_extent_m, pixels, OccluderSelection(occluders, w), FacePanes(pixels)});
       resolution = std::max(resolution, pixels);
     }
     faces.emplace(resolution, near_m);
@@ -167,8 +167,8 @@ void Panorama::State::ask_part(const QuestionBatch& batch, const QuestionBatch::
 }
 
 Panorama::Panorama(const std::vector<Box>& object_boxes, const SliceBoxes& slices,
-                   const std::vector<WindowOccluders>& windows)
-    : state_(std::make_unique<State>(object_boxes, slices.boxes, windows)) {}
+                   const ClusteredOccluders& occluders)
+    : state_(std::make_unique<State>(object_boxes, slices.boxes, occluders)) {}
 
 Panorama::~Panorama() = default;
 

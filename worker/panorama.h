@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scene/box.h"
-#include "worker/occluders.h"
+#include "worker/clustered_occluders.h"
 #include "worker/occlusion_method.h"
 #include "worker/slices.h"
 
@@ -47,10 +47,10 @@ class Panorama {
   static constexpr int slots = 4;
   static constexpr float near_m = 0.05f;
 
-  /// `object_boxes` [N] m; `slices` as made by slice_boxes for the same objects; `windows`: occluders for
+  /// `object_boxes` [N] m; `slices` as made by slice_boxes for the same objects; `occluders` for
   /// every size of parts; the pixels of a face follow from their rings.
   Panorama(const std::vector<Box>& object_boxes, const SliceBoxes& slices,
-           const std::vector<WindowOccluders>& windows);
+           const ClusteredOccluders& occluders);
   ~Panorama();
 
   /// Draws each part and asks its questions. Does not wait; the batch is free again when it returns.

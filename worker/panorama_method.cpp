@@ -5,7 +5,7 @@ namespace veduta {
 PanoramaMethod::PanoramaMethod(const OcclusionInput& input)
     : bounds_(object_boxes(input)),
       sampler_(input.city, input.slices),
-      panorama_(bounds_, input.slices, input.windows) {
+      panorama_(bounds_, input.slices, input.occluders) {
   for (int slot = 0; slot < Panorama::slots; ++slot)
     flights_.push_back({CellBracket(input, sampler_, bounds_), false});
 }

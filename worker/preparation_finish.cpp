@@ -4,6 +4,7 @@
 #include "pvs/pvs_file.h"
 #include "scene/error.h"
 #include "scene/sync_path.h"
+#include "worker/clustered_occluders.h"
 #include "worker/occluder_file.h"
 #include "worker/preparation_parts.h"
 
@@ -106,7 +107,7 @@ PreparedSize finish_preparation(const RunPaths& run, const Settings& settings) {
   complete_city(scene_file(run), made / run.city().filename(), places);
   const std::vector<WindowOccluders> occluders = gather_occluders(run, plan);
   note_rings(occluders, size.notes);
-  write_occluder_file(made / run.occluders().filename(), occluders);
+  write_clustered_occluders(made / run.occluders().filename(), occluders);
   sync_path(made / run.occluders().filename());
   sync_path(made);
 

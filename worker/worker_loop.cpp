@@ -16,7 +16,6 @@
 #include "scene/error.h"
 #include "scene/peak_memory.h"
 #include "worker/baker.h"
-#include "worker/occluder_file.h"
 #include "worker/preparation.h"
 #include "worker/protocol.h"
 
@@ -108,8 +107,8 @@ class Worker {
 
   void open_city(const std::string& directory) {
     const RunPaths run{directory};
-    baker_.emplace(read_city(run.city()), read_occluder_file(run.occluders()), load_settings(run.settings()),
-                   gpu_);
+    baker_.emplace(read_city(run.city()), ClusteredOccluders::map(run.occluders()),
+                   load_settings(run.settings()), gpu_);
     say(Verb::opened, {{"renderer", baker_->renderer()}, {"cells", baker_->cell_count()}});
   }
 

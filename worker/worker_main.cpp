@@ -11,6 +11,21 @@
 #include "worker/city_section.h"
 #include "worker/worker_loop.h"
 
+namespace {
+
+/// A file of the prepared city that is mapped was cut short, or its disk failed. There is no way on, but to
+/// say so: the shepherd takes it for any other death, and the next worker that opens the city finds out more.
+void say_what_is_gone(int signal) {
+  static const char text[] =
+      "veduta-worker: a file of the prepared city cannot be read any more: it was cut short, or its disk "
+      "fails\n";
+  [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, text, sizeof(text) - 1);
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   CLI::App app{
       "Veduta's worker: bakes cells that arrive as frames on standard input. Started by `veduta bake`."};
@@ -31,6 +46,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(veduta::ExitStatus::usage);
   }
+  std::signal(SIGBUS, say_what_is_gone);
   std::signal(SIGPIPE, SIG_IGN);  // a shepherd that is gone shows as a write error
   try {
     if (!config.empty()) {

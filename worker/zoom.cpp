@@ -8,10 +8,12 @@
 namespace veduta {
 
 ZoomOccluders* Zoom::State::occluders_for(const glm::dvec3& half_extent_m) {
-  const auto smallest = smallest_window(windows, half_extent_m);
-  if (!smallest || windows[*smallest].rings.empty()) return nullptr;
-  const WindowOccluders& window = windows[*smallest];
-  return &occluders.try_emplace(&window, window.rings.front().occluders).first->second;
+  const auto smallest = smallest_window(city_occluders.half_extents_m(), half_extent_m);
+  if (!smallest || city_occluders.windows()[*smallest].rings.empty()) return nullptr;
+  const auto known = occluders.find(*smallest);
+  if (known != occluders.end()) return &known->second;
+  const OccluderMesh mesh = city_occluders.mesh(city_occluders.windows()[*smallest].rings.front());
+  return &occluders.try_emplace(*smallest, mesh).first->second;
 }
 
 void Zoom::State::see_all(uint32_t object) {
@@ -114,9 +116,8 @@ void Zoom::State::lower_occluded() {
   }
 }
 
-Zoom::Zoom(const std::vector<Box>& object_boxes, const SliceBoxes& slices,
-           const std::vector<WindowOccluders>& windows)
-    : state_(std::make_unique<State>(object_boxes, slices, windows)) {
+Zoom::Zoom(const std::vector<Box>& object_boxes, const SliceBoxes& slices, ClusteredOccluders occluders)
+    : state_(std::make_unique<State>(object_boxes, slices, std::move(occluders))) {
   begin_cell();
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scene/box.h"
-#include "worker/occluders.h"
+#include "worker/clustered_occluders.h"
 #include "worker/occlusion_method.h"
 #include "worker/slices.h"
 
@@ -20,8 +20,7 @@ class Zoom {
  public:
   /// `object_boxes` [N] m; `slices` as made by slice_boxes for the same objects, `windows`: occluders for
   /// every size of parts, of which the first ring is taken. Both of these outlive the zoom.
-  Zoom(const std::vector<Box>& object_boxes, const SliceBoxes& slices,
-       const std::vector<WindowOccluders>& windows);
+  Zoom(const std::vector<Box>& object_boxes, const SliceBoxes& slices, ClusteredOccluders occluders);
   ~Zoom();
 
   /// Forgets what was found: everything counts as hidden until a part sees it.

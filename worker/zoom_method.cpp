@@ -7,7 +7,7 @@
 namespace veduta {
 
 ZoomMethod::ZoomMethod(const OcclusionInput& input)
-    : input_(input), zoom_(object_boxes(input), input.slices, input.windows) {}
+    : input_(input), zoom_(object_boxes(input), input.slices, input.occluders) {}
 
 void ZoomMethod::bake(std::span<const uint32_t> cells,
                       const std::function<void(const CellOcclusion&)>& done) {

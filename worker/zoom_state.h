@@ -19,15 +19,18 @@ struct Zoom::State {
   /// In place of the number of a question.
   static constexpr uint32_t visible_unasked = UINT32_MAX, hidden_unasked = UINT32_MAX - 1;
 
-  State(const std::vector<Box>& boxes, const SliceBoxes& s, const std::vector<WindowOccluders>& w)
-      : object_boxes(boxes), slices(s), windows(w), quadtree(make_occludee_quadtree(boxes)) {}
+  State(const std::vector<Box>& boxes, const SliceBoxes& s, ClusteredOccluders c)
+      : object_boxes(boxes),
+        slices(s),
+        city_occluders(std::move(c)),
+        quadtree(make_occludee_quadtree(boxes)) {}
 
   std::vector<Box> object_boxes;
   const SliceBoxes& slices;
-  const std::vector<WindowOccluders>& windows;
+  ClusteredOccluders city_occluders;
   OccludeeQuadtree quadtree;
   ZoomRenderer renderer;
-  std::map<const WindowOccluders*, ZoomOccluders> occluders;  // of windows that were needed so far
+  std::map<uint32_t, ZoomOccluders> occluders;  // of windows that were needed so far
   Occlusion occlusion;
   std::vector<uint8_t> all_seen;  // [N] 1: nothing of it is hidden, further parts change nothing
   OcclusionCounters counters;

@@ -140,7 +140,7 @@ class PreparationOrders : public testing::Test {
 
 TEST_F(PreparationOrders, AnyWorkersAndOrdersGiveTheSameBytes) {
   const auto expected = prepare("in order", 1, 0);
-  ASSERT_TRUE(expected.contains("city.h5") && expected.contains("occluders.bin"));
+  ASSERT_TRUE(expected.contains("city.h5") && expected.contains("occluder_clusters.bin"));
   EXPECT_GT(tiles_, 8u);
   const uint32_t runs_in_order = runs_;
   std::vector<uint32_t> runs;

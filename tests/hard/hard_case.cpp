@@ -8,7 +8,7 @@
 
 #include "tests/hard/generated_scenes.h"
 #include "worker/baker.h"
-#include "worker/occluder_file.h"
+#include "worker/clustered_occluders.h"
 #include "worker/preparation.h"
 
 namespace veduta::hard {
@@ -84,7 +84,7 @@ PreparedCase prepare_case(const Settings& settings) {
   const test::TemporaryDirectory directory;
   const RunPaths run{directory.path()};
   prepare_all(run, settings);
-  return {read_city(run.city()), read_occluder_file(run.occluders())};
+  return {read_city(run.city()), ClusteredOccluders::map(run.occluders()).meshes()};
 }
 
 PvsFile bake_case(const PreparedCase& prepared, Settings settings, const std::string& method) {

@@ -13,8 +13,10 @@ namespace {
 using test::Faces;
 using test::Random;
 
-std::vector<OccluderRing> ring_of(OccluderMesh mesh, float depth_limit_m = 1000) {
-  return {{0.1, depth_limit_m, std::move(mesh)}};
+/// Of one ring.
+OccluderSelection selection_of(OccluderMesh mesh, float depth_limit_m = 1000) {
+  const std::vector<WindowOccluders> windows{{glm::dvec3(1), {{0.1, depth_limit_m, std::move(mesh)}}}};
+  return OccluderSelection(windows, 0);
 }
 
 /// Twice the area of what the quads draw, as two triangles each.
@@ -35,7 +37,7 @@ TEST(OccluderSelection, DrawsEveryPolygonThatFacesTheEyeAndNoOther) {
     const glm::vec3 middle(20, random.real(-5, 5), random.real(-5, 5));
     OccluderMesh mesh;
     test::add_body(mesh, faces, middle);
-    OccluderSelection selection(ring_of(mesh, 77));
+    OccluderSelection selection = selection_of(mesh, 77);
     size_t quads = 0;
     glm::dvec3 area(0);
     for (const auto& face : faces) {
@@ -64,7 +66,7 @@ TEST(OccluderSelection, FacesWithoutAnAreaAreDropped) {
   mesh.body_begin.back() = static_cast<uint32_t>(mesh.faces());
   mesh.add_face({{12, 0, 0}, {12, 0, 0}, {12, 0, 0}});
   mesh.end_body();
-  EXPECT_EQ(OccluderSelection(ring_of(mesh)).select(0, {0, 0, 0}).size(), 4u) << "one side of the box";
+  EXPECT_EQ(selection_of(mesh).select(0, {0, 0, 0}).size(), 4u) << "one side of the box";
 }
 
 TEST(OccluderSelection, FacesTakeWhatReachesIntoThem) {
@@ -73,7 +75,7 @@ TEST(OccluderSelection, FacesTakeWhatReachesIntoThem) {
     const glm::vec3 forward = glm::transpose(face_from_world(face)) * glm::vec3(0, 0, 10);
     mesh.add_box({forward - 1.0f, forward + 1.0f});
   }
-  OccluderSelection selection(ring_of(mesh));
+  OccluderSelection selection = selection_of(mesh);
   for (int face = 0; face < face_count; ++face) {
     const auto& vertices = selection.select(face, {0, 0, 0});
     ASSERT_EQ(vertices.size(), 4u) << face;
@@ -85,8 +87,8 @@ TEST(OccluderSelection, FacesTakeWhatReachesIntoThem) {
     far.add_box({{60, -1, -1}, {62, 1, 1}});
     return far;
   }();
-  EXPECT_TRUE(OccluderSelection(ring_of(beyond, 59)).select(0, {0, 0, 0}).empty());
-  EXPECT_FALSE(OccluderSelection(ring_of(beyond, 61)).select(0, {0, 0, 0}).empty());
+  EXPECT_TRUE(selection_of(beyond, 59).select(0, {0, 0, 0}).empty());
+  EXPECT_FALSE(selection_of(beyond, 61).select(0, {0, 0, 0}).empty());
 }
 
 TEST(OccluderSelection, ManyBodiesBehindOneAreLeftOut) {
@@ -96,7 +98,7 @@ TEST(OccluderSelection, ManyBodiesBehindOneAreLeftOut) {
     const auto x = static_cast<float>(30 + n);
     mesh.add_box({{x, -10, -2}, {x + 0.5f, 10, 5}});
   }
-  EXPECT_EQ(OccluderSelection(ring_of(mesh)).select(0, {0, 0, 0}).size(), 4u);
+  EXPECT_EQ(selection_of(mesh).select(0, {0, 0, 0}).size(), 4u);
 }
 
 }  // namespace

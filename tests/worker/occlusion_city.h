@@ -12,7 +12,6 @@
 #include "tests/pvs/small_city.h"
 #include "tests/worker/mesh.h"
 #include "verify/eyes.h"
-#include "worker/occluder_file.h"
 #include "worker/occlusion_method.h"
 #include "worker/preparation.h"
 #include "worker/three_bytes.h"
@@ -78,7 +77,7 @@ class OcclusionCity {
     prepare_all(run, settings);
     file_.city = read_city(run.city());
     file_.index_cells();
-    windows_ = read_occluder_file(run.occluders());
+    windows_ = ClusteredOccluders::map(run.occluders()).meshes();
     finish();
   }
 

@@ -11,7 +11,7 @@
 #include "tests/pvs/small_city.h"
 #include "tests/worker/mesh.h"
 #include "worker/canonical_axes.h"
-#include "worker/occluder_file.h"
+#include "worker/clustered_occluders.h"
 #include "worker/preparation_parts.h"
 
 namespace veduta {
@@ -84,7 +84,7 @@ struct PreparedCity {
     settings.cells.size_m = 4;
     size = prepare_all(run, settings, {}, sizes);
     city = read_city(run.city());
-    occluders = read_occluder_file(run.occluders());
+    occluders = ClusteredOccluders::map(run.occluders()).meshes();
   }
   TemporaryDirectory directory;
   RunPaths run{directory.path()};

@@ -10,7 +10,6 @@
 #include "tests/pvs/small_city.h"
 #include "verify/verify.h"
 #include "worker/baker.h"
-#include "worker/occluder_file.h"
 #include "worker/preparation.h"
 
 namespace veduta::test {
@@ -56,7 +55,7 @@ class ToyCity {
     file_pvs_.city = read_city(run.city());
     file_pvs_.row_begin.push_back(0);
     try {
-      Baker baker(file_pvs_.city, read_occluder_file(run.occluders()), settings_, "software");
+      Baker baker(file_pvs_.city, ClusteredOccluders::map(run.occluders()), settings_, "software");
       for (uint32_t cell = 0; cell < baker.cell_count(); ++cell) {
         CellRecord record;
         baker.bake(std::array{cell}, [&](const CellRecord& baked) { record = baked; });

@@ -131,11 +131,11 @@ TEST_F(WorkerLoop, SaysWhatIsWrongWithAModel) {
 
 TEST_F(WorkerLoop, RefusesDamagedOccluders) {
   ASSERT_EQ(prepare_all().verb, Verb::prepared);
-  fs::resize_file(directory_ / "prepared" / "occluders.bin", 20);
+  fs::resize_file(directory_ / "prepared" / "occluder_clusters.bin", 20);
   say(Verb::open, in_directory());
   const Frame failed = hear();
   ASSERT_EQ(failed.verb, Verb::failed);
-  EXPECT_NE(failed.text().find("occluders.bin"), std::string::npos) << failed.text();
+  EXPECT_NE(failed.text().find("occluder_clusters.bin"), std::string::npos) << failed.text();
   EXPECT_EQ(leave(), static_cast<int>(ExitStatus::bad_input));
 }
 

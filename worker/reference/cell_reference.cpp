@@ -34,7 +34,7 @@ bool any_of_lattice(const glm::dvec3& lower, const glm::dvec3& upper, int most, 
 
 CellReference::CellReference(const OcclusionInput& input) : input_(input) {
   for (size_t o = 0; o < input.city.scene.objects.size(); ++o) objects_.push_back(input.city.scene.bounds(o));
-  for (const WindowOccluders& window : input.windows) {
+  for (const WindowOccluders& window : input.occluders.meshes()) {
     GrownPolygons& as_they_are = occluders_.emplace_back();
     for (const OccluderRing& ring : window.rings) {
       as_they_are.add(ring.occluders, glm::dvec3(0));
@@ -100,17 +100,17 @@ std::vector<CellReference::Part> CellReference::parts(uint32_t cell) const {
   const Settings& settings = input_.settings;
   const int count = settings.occlusion.subdivide;
   const glm::dvec3 half_extent_m = part_half_extent(settings, size_class_of(settings, box), count);
-  const auto window = std::find_if(input_.windows.begin(), input_.windows.end(), [&](const auto& w) {
-    return glm::all(glm::greaterThanEqual(w.half_extent_m, half_extent_m));
+  const std::vector<glm::dvec3>& windows_m = input_.occluders.half_extents_m();
+  const auto window = std::find_if(windows_m.begin(), windows_m.end(), [&](const glm::dvec3& w) {
+    return glm::all(glm::greaterThanEqual(w, half_extent_m));
   });  // the smallest comes first
-  if (window == input_.windows.end())
+  if (window == windows_m.end())
     throw Error(ExitStatus::defect, "occlusion: there are no occluders for the smallest parts");
   std::vector<Part> all;
   const float margin_m = input_.city.navigation.free.leaf_size_m;
   for (const Box& part : parts_of(box, count)) {
     const Box eyes = navigable_part(input_.city.navigation.free, part, margin_m);
-    if (!eyes.empty())
-      all.push_back({eyes.center(), half_extent_m, &occluders_[window - input_.windows.begin()]});
+    if (!eyes.empty()) all.push_back({eyes.center(), half_extent_m, &occluders_[window - windows_m.begin()]});
   }
   return all;
 }

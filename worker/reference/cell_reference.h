@@ -38,7 +38,7 @@ struct Witness {
 
 class CellReference {
  public:
-  /// \param input `windows` are the occluders as they were shrunk, whatever the method was given. All of it
+  /// \param input `occluders` are those that were shrunk, whatever the method was given. All of it
   /// outlives this.
   explicit CellReference(const OcclusionInput& input);
 
