@@ -10,8 +10,10 @@ namespace veduta {
 void write_scene_columns(hdf5::Output& output, const City& city, ColumnDigests& digests);
 /// Writes /navigation and /cells/bounds, likewise.
 void write_place_columns(hdf5::Output& output, const City& city, ColumnDigests& digests);
-/// Reads what these two wrote. Digests are compared, relations not yet.
-City read_city_columns(const hdf5::Input& input, ColumnDigests& digests);
+enum class CityParts { all, to_bake };
+/// Reads what these two wrote, or what baking needs of it: surfaces and ground then have no values, their
+/// digests are those that they should have. Digests are compared, relations not yet.
+City read_city_columns(const hdf5::Input& input, ColumnDigests& digests, CityParts parts = CityParts::all);
 
 /// Writes and reads the root's attributes. Reading compares the format, the version and the digest over them.
 void write_root(hdf5::Output& output, const RootAttributes& root);

@@ -67,25 +67,36 @@ void read_scene(const Input& input, City& city, ColumnDigests& digests) {
       input, column::part_end, scene.parts, [](Part& p, uint64_t t) { p.triangle_end = t; }, digests);
 }
 
-void read_forest(const Input& input, const column::ForestColumns& columns, OctreeForest& forest,
+void pass_over(const Input& input, const Column& column, ColumnDigests& digests) {
+  digests[column.path] = ColumnReader(input, column).stated_digest();
+}
+
+void read_forest(const Input& input, const column::ForestColumns& columns, OctreeForest& forest, bool nodes,
                  ColumnDigests& digests) {
   const auto lower = input.floats(columns.group, "lower", 3);
   forest.lower = {lower[0], lower[1], lower[2]};
   forest.leaf_size_m = input.floats(columns.group, "leaf_size_m", 1)[0];
   forest.depth = input.number(columns.group, "depth");
+  if (!nodes) {
+    for (const Column& column : {columns.roots, columns.states, columns.first_child})
+      pass_over(input, column, digests);
+    return;
+  }
   forest.roots = read_rows<glm::ivec3>(input, columns.roots, digests);
   forest.states = read_rows<uint16_t>(input, columns.states, digests);
   forest.first_child = read_rows<uint32_t>(input, columns.first_child, digests);
 }
 
-void read_navigation(const Input& input, Navigation& navigation, ColumnDigests& digests) {
-  read_forest(input, column::free_forest, navigation.free, digests);
-  read_forest(input, column::surface_forest, navigation.surfaces, digests);
+void read_navigation(const Input& input, CityParts parts, Navigation& navigation, ColumnDigests& digests) {
+  const bool all = parts == CityParts::all;
+  read_forest(input, column::free_forest, navigation.free, true, digests);
+  read_forest(input, column::surface_forest, navigation.surfaces, all, digests);
   HeightField& ground = navigation.ground;
   const auto corner = input.floats("/navigation/ground", "lower", 2);
   ground.lower_x = corner[0];
   ground.lower_y = corner[1];
   ground.step_m = input.floats("/navigation/ground", "step_m", 1)[0];
+  if (!all) return pass_over(input, column::ground_height, digests);
   const ColumnReader height(input, column::ground_height);
   if (height.rows() > UINT32_MAX || height.columns() > UINT32_MAX)
     input.fail(column::ground_height.path, "more than 2^32 - 1 samples along an axis");
@@ -99,10 +110,10 @@ void read_navigation(const Input& input, Navigation& navigation, ColumnDigests& 
 
 }  // namespace
 
-City read_city_columns(const Input& input, ColumnDigests& digests) {
+City read_city_columns(const Input& input, ColumnDigests& digests, CityParts parts) {
   City city;
   read_scene(input, city, digests);
-  read_navigation(input, city.navigation, digests);
+  read_navigation(input, parts, city.navigation, digests);
   city.cells = read_rows<Box>(input, column::cell_bounds, digests);
   const auto bounds = read_rows<Box>(input, column::object_bounds, digests);
   if (bounds.size() != city.scene.objects.size())

@@ -114,7 +114,7 @@ std::string ColumnReader::read(
   const uint64_t extent[2] = {rows_, columns_};
   digest.update(extent, rank() == 1 ? 8 : 16);
   const std::string hex = digest.hex();
-  if (input_.text_of(dataset_.get(), column_.path, "digest") != hex)
+  if (stated_digest() != hex)
     input_.fail(column_.path, "damaged: its digest does not hold; get the file again, or bake again");
   return hex;
 }

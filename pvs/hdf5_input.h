@@ -64,6 +64,9 @@ class ColumnReader {
   std::string read(
       const std::function<void(const std::byte* rows, uint64_t first, size_t count)>& visit) const;
 
+  /// The digest that the rows should have.
+  std::string stated_digest() const { return input_.text_of(dataset_.get(), column_.path, "digest"); }
+
   /// All rows as T, one T a row.
   template <typename T>
   std::string read_into(std::vector<T>& out) const {

@@ -91,6 +91,9 @@ std::string write_pvs(const std::filesystem::path& file, const City& city, const
 /// checks.
 void write_city(const std::filesystem::path& file, const City& city);
 City read_city(const std::filesystem::path& file);
+/// The same without what baking does not look at: of the navigation, surfaces and ground have no values. What
+/// is passed over may be damaged.
+City read_city_to_bake(const std::filesystem::path& file);
 
 /// The same in two steps, the large part once and first: a file of scene and slices, which is no prepared
 /// city yet, and then one that has its copy, the cells, the navigation and `scene.crs` and `scene.origin` of

@@ -43,6 +43,15 @@ void finish_city(const Input& input, const RootAttributes& root, const ColumnDig
     input.fail("/@content_digest", "does not hold; get the file again, or bake again");
 }
 
+City read_prepared(const std::filesystem::path& path, CityParts parts) {
+  const Input input(path);
+  const RootAttributes root = read_root(input, city_format);
+  ColumnDigests digests;
+  City city = read_city_columns(input, digests, parts);
+  finish_city(input, root, digests, city);
+  return city;
+}
+
 }  // namespace
 
 PvsFile read_pvs(const std::filesystem::path& path) {
@@ -71,12 +80,11 @@ PvsFile read_pvs(const std::filesystem::path& path) {
 }
 
 City read_city(const std::filesystem::path& path) {
-  const Input input(path);
-  const RootAttributes root = read_root(input, city_format);
-  ColumnDigests digests;
-  City city = read_city_columns(input, digests);
-  finish_city(input, root, digests, city);
-  return city;
+  return read_prepared(path, CityParts::all);
+}
+
+City read_city_to_bake(const std::filesystem::path& path) {
+  return read_prepared(path, CityParts::to_bake);
 }
 
 }  // namespace veduta

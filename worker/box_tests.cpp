@@ -60,12 +60,13 @@ BoxTests::BoxTests(const std::vector<Box>& object_boxes, const std::vector<Box>&
       first_answer_(slices_.program.uniform("first_answer")),
       first_slice_box_(slices_.program.uniform("first_slice_box")),
       object_count_(object_boxes.size()) {
-  std::vector<Box> all = object_boxes;
-  all.insert(all.end(), slice_boxes.begin(), slice_boxes.end());
+  const auto objects = static_cast<GLsizeiptr>(object_boxes.size() * sizeof(Box)),
+             slices = static_cast<GLsizeiptr>(slice_boxes.size() * sizeof(Box));
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, boxes_.id());
-  glBufferData(GL_SHADER_STORAGE_BUFFER,
-               static_cast<GLsizeiptr>(std::max<size_t>(all.size(), 1) * sizeof(Box)), all.data(),
+  glBufferData(GL_SHADER_STORAGE_BUFFER, std::max<GLsizeiptr>(objects + slices, sizeof(Box)), nullptr,
                GL_STATIC_DRAW);
+  if (objects > 0) glBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, objects, object_boxes.data());
+  if (slices > 0) glBufferSubData(GL_SHADER_STORAGE_BUFFER, objects, slices, slice_boxes.data());
 }
 
 void BoxTests::objects(const TestView& view, uint32_t first, uint32_t count) const {

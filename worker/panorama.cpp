@@ -71,7 +71,7 @@ struct Panorama::State {
     std::vector<uint32_t> read_back;
   };
 
-  std::vector<Box> object_boxes, slice_boxes;
+  std::span<const Box> object_boxes, slice_boxes;
   BoxTests tests;
   std::vector<Window> windows;
   std::optional<DepthFaces> faces;

@@ -48,7 +48,7 @@ class Panorama {
   static constexpr float near_m = 0.05f;
 
   /// `object_boxes` [N] m; `slices` as made by slice_boxes for the same objects; `occluders` for
-  /// every size of parts; the pixels of a face follow from their rings.
+  /// every size of parts; the pixels of a face follow from their rings. The boxes outlive it.
   Panorama(const std::vector<Box>& object_boxes, const SliceBoxes& slices,
            const ClusteredOccluders& occluders);
   ~Panorama();

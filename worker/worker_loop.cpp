@@ -107,7 +107,7 @@ class Worker {
 
   void open_city(const std::string& directory) {
     const RunPaths run{directory};
-    baker_.emplace(read_city(run.city()), ClusteredOccluders::map(run.occluders()),
+    baker_.emplace(read_city_to_bake(run.city()), ClusteredOccluders::map(run.occluders()),
                    load_settings(run.settings()), gpu_);
     say(Verb::opened, {{"renderer", baker_->renderer()}, {"cells", baker_->cell_count()}});
   }

@@ -218,6 +218,20 @@ TEST(PvsFile, PreparedCityRoundTripsAndIsNoResult) {
   EXPECT_NE(message.find("veduta-city"), std::string::npos) << message;
 }
 
+TEST(PvsFile, ToBakeACitySurfacesAndGroundArePassedOver) {
+  TemporaryDirectory directory;
+  write_city(directory / "city.h5", small_city());
+  City expected = small_city();
+  ASSERT_FALSE(expected.navigation.surfaces.states.empty());
+  ASSERT_FALSE(expected.navigation.ground.height.empty());
+  OctreeForest& surfaces = expected.navigation.surfaces;
+  surfaces.roots.clear(), surfaces.states.clear(), surfaces.first_child.clear();
+  HeightField& ground = expected.navigation.ground;
+  ground.height.clear(), ground.nx = ground.ny = 0;
+  expect_same(expected, read_city_to_bake(directory / "city.h5"));
+  EXPECT_EQ(status_of([&] { read_city_to_bake(directory / "none.h5"); }), ExitStatus::bad_input);
+}
+
 TEST(PvsFile, ACityInTwoStepsIsTheSameCity) {
   TemporaryDirectory directory;
   const City city = small_city();
