@@ -42,12 +42,13 @@ bool for_shepherd(const Message& message) {
       message);
 }
 
-/// An error of this rank as the coordinator is told it: the user must know which host to look at.
+/// An error of this rank as the coordinator is told it: the user must know which host to look at, also when
+/// the rank could not begin.
 FailedMessage failure(const Transport& transport, ExitStatus status, const std::string& what) {
   FailedMessage failed;
   failed.status = static_cast<int32_t>(status);
   failed.message = FixedText<1600>(
-      transport.rank() == 0 ? what : fmt::format("rank {} on {}: {}", transport.rank(), host_name(), what));
+      transport.size() == 1 ? what : fmt::format("rank {} on {}: {}", transport.rank(), host_name(), what));
   return failed;
 }
 

@@ -55,6 +55,7 @@ int run_status(const Options& options) {
     std::cout << nlohmann::json{{"state", state},
                                 {"prepared", city.has_value()},
                                 {"preparing", preparation ? name_of(preparation->stage) : ""},
+                                {"parts_done", preparation ? preparation->done.size() : 0},
                                 {"cells", total},
                                 {"done", journal.done},
                                 {"all_visible", journal.all_visible},

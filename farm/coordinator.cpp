@@ -116,7 +116,7 @@ void Coordinator::handle(int from, const Message& message) {
   } else if (const auto* note = std::get_if<NoteMessage>(&message)) {
     log_.info("note", json{{"rank", from}, {"text", note->text.text()}}, note->text.text());
   } else if (const auto* failed = std::get_if<FailedMessage>(&message)) {
-    throw Error(static_cast<ExitStatus>(failed->status), failed->message.text() + told_by(from));
+    throw Error(static_cast<ExitStatus>(failed->status), failed->message.text());
   } else if (std::holds_alternative<LeftMessage>(message)) {
     left_.insert(from);
     // A rank that was asked to stop takes the others with it.

@@ -89,9 +89,10 @@ class MpiTransport final : public Transport {
   }
 
   void leave(int status) override {
-    // MPI_Finalize waits for every rank, and for ever when one is stopped; nobody should wait for that.
+    // MPI_Finalize waits for every rank, and for ever when one is stopped, or when a job scheduler has ended
+    // the launcher's daemons. Everything is in the journal by now, and a pre-empted job has few seconds.
     std::thread([status] {
-      std::this_thread::sleep_for(std::chrono::seconds(10));
+      std::this_thread::sleep_for(std::chrono::seconds(3));
       _exit(status);
     }).detach();
     while (!outgoing_.empty()) {

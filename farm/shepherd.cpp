@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "farm/machine.h"
 #include "farm/run_directory.h"
 #include "scene/error.h"
 
@@ -22,12 +22,6 @@ constexpr auto stop_patience = std::chrono::milliseconds(1200);
 constexpr auto sync_interval = std::chrono::seconds(1), heartbeat_interval = std::chrono::seconds(2);
 constexpr uint64_t sync_bytes = 16u << 20;
 constexpr double prepare_timeout_s = 3600, open_timeout_s = 600;
-
-std::string host_name() {
-  char host[64] = {};
-  gethostname(host, sizeof host - 1);
-  return host;
-}
 
 std::string absolute_directory(const RunPaths& run) {
   return std::filesystem::absolute(run.directory).string();
