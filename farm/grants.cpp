@@ -20,7 +20,7 @@ constexpr size_t block_bytes = 1 << 16;
 constexpr size_t line_limit = 4096;            // lines of ours that matter here are shorter
 constexpr uint64_t read_limit = 256ull << 20;  // two million grants: more is not worth the wait
 
-/// Hands out the lines of a file, the last one first, until `visit` returns false.
+/// Hands out the lines of a file, the last one first.
 class LinesBackwards {
  public:
   explicit LinesBackwards(const std::filesystem::path& file)
@@ -108,6 +108,20 @@ std::vector<bool> cells_in_hands(const std::filesystem::path& log, uint32_t cell
     for (uint64_t cell = *begin; cell < end; ++cell) held[cell] = true;
   }
   return held;
+}
+
+std::optional<BakeBegin> last_bake_begin(const std::filesystem::path& log) {
+  LinesBackwards lines(log);
+  while (const auto text = lines.next()) {
+    if (text->find("\"journal\"") == std::string::npos) continue;
+    const json line = json::parse(*text, nullptr, false);
+    if (!line.is_object()) continue;
+    const auto t = line.find("t");
+    const auto done = number(line, "done");
+    if (is_event(line, "journal") && t != line.end() && t->is_number() && done)
+      return BakeBegin{t->get<double>(), *done};
+  }
+  return std::nullopt;
 }
 
 }  // namespace veduta

@@ -95,6 +95,16 @@ TEST_F(Bake, RunningBakeLocksItsDirectory) {
   EXPECT_NE(status.output().find("\"running\""), std::string::npos) << status.output();
 }
 
+TEST_F(Bake, StatusDrawsTheCells) {
+  ASSERT_EQ(run(bake(), {{"FAKE_CRASH_CELLS", "57"}}), 3) << output;
+  const std::string map = (directory / "map.svg").string();
+  ASSERT_EQ(run(std::string(VEDUTA_PROGRAM) + " status --map " + map + " " + (directory / "run").string()), 0)
+      << output;
+  const std::string svg = slurp(map);
+  EXPECT_NE(svg.find("recorded all visible"), std::string::npos);
+  EXPECT_EQ(svg.find("#c81d25"), svg.rfind("#c81d25", svg.rfind("#c81d25") - 1)) << "cell 57, and the legend";
+}
+
 TEST_F(Bake, AnotherJobIsRefusedAndTheKeyNamed) {
   ASSERT_EQ(run(bake("--no-merge"), {{"FAKE_CELLS", "5"}}), 0) << output;
   config = write_config("other.toml", "[cells]\nsize = 12\n");
