@@ -22,7 +22,12 @@ struct Options {
 
 int run_merge(const Options& options) {
   const auto output = options.output.empty() ? options.run.result() : options.output;
-  const MergeResult result = merge_run(options.run, output, options.partial);
+  Progress progress(false);
+  const MergeResult result =
+      merge_run(options.run, output, options.partial, [&](const char* what, uint64_t done, uint64_t total) {
+        progress.work(std::string("merging: ") + what, done, total);
+      });
+  progress.clear();
   if (result.conflicts > 0)
     say(
         fmt::format("{}: {} second answers differ from the first, which counts; both are conservative. "

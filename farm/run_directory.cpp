@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -14,6 +13,7 @@
 #include <thread>
 
 #include "pvs/pvs_file.h"
+#include "scene/atomic_file.h"
 #include "scene/error.h"
 #include "scene/sync_path.h"
 
@@ -122,16 +122,8 @@ bool is_run_directory(const RunPaths& run) {
 }
 
 void remove_unfinished_files(const RunPaths& run) {
-  std::error_code ignored;
-  for (const fs::path& file : {run.result(), run.settings(), run.fingerprint(), run.report()}) {
-    const std::string start = file.filename().string() + ".tmp.";
-    for (const auto& entry : fs::directory_iterator(run.directory, ignored)) {
-      const std::string name = entry.path().filename().string();
-      if (name.rfind(start, 0) != 0) continue;
-      const auto writer = static_cast<pid_t>(std::strtol(name.c_str() + start.size(), nullptr, 10));
-      if (writer > 0 && kill(writer, 0) != 0 && errno == ESRCH) fs::remove(entry.path(), ignored);
-    }
-  }
+  for (const fs::path& file : {run.result(), run.settings(), run.fingerprint(), run.report()})
+    remove_dead_temporaries(file);
 }
 
 void remove_run(const RunPaths& run) {

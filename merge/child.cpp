@@ -11,6 +11,7 @@
 #include <csignal>
 #include <cstring>
 #include <new>
+#include <optional>
 
 #include "scene/error.h"
 
@@ -18,15 +19,22 @@ namespace veduta {
 
 namespace {
 
-/// What a child sends: an exit status, then the result or the message.
+/// What a child sends: notes, then an answer, which is an exit status and the result or the message.
 struct Answer {
   int32_t status = 0;
   std::string text;
 };
+constexpr int32_t note_status = -1;
 
-Answer answer_of(const std::function<std::string()>& work) {
+/// Before each text.
+struct Frame {
+  int32_t status = 0;
+  uint32_t bytes = 0;
+};
+
+Answer answer_of(const std::function<std::string(const Tell&)>& work, const Tell& tell) {
   try {
-    return {0, work()};
+    return {0, work(tell)};
   } catch (const Error& error) {
     return {static_cast<int32_t>(error.status()), error.what()};
   } catch (const std::bad_alloc&) {
@@ -48,24 +56,43 @@ bool send(int descriptor, const void* data, size_t size) {
   return true;
 }
 
-[[noreturn]] void be_child(int descriptor, pid_t parent, const std::function<std::string()>& work) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);  // it died before the line above
-  const Answer answer = answer_of(work);
-  const bool sent = send(descriptor, &answer.status, sizeof answer.status) &&
-                    send(descriptor, answer.text.data(), answer.text.size());
-  ::_exit(sent ? 0 : 1);
+bool send(int descriptor, const Answer& answer) {
+  const Frame frame{answer.status, static_cast<uint32_t>(answer.text.size())};
+  return send(descriptor, &frame, sizeof frame) && send(descriptor, answer.text.data(), answer.text.size());
 }
 
-std::string receive_all(int descriptor) {
-  std::string out;
-  std::array<char, 4096> block;
-  for (;;) {
-    const ssize_t got = ::read(descriptor, block.data(), block.size());
+[[noreturn]] void be_child(int descriptor, pid_t parent,
+                           const std::function<std::string(const Tell&)>& work) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);  // it died before the line above
+  const Answer answer = answer_of(work, [&](const std::string& note) {
+    send(descriptor, Answer{note_status, note});
+  });
+  ::_exit(send(descriptor, answer) ? 0 : 1);
+}
+
+/// \return were there as many bytes?
+bool receive(int descriptor, void* data, size_t size) {
+  auto* bytes = static_cast<char*>(data);
+  while (size > 0) {
+    const ssize_t got = ::read(descriptor, bytes, size);
     if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return out;
-    out.append(block.data(), static_cast<size_t>(got));
+    if (got <= 0) return false;
+    bytes += got;
+    size -= static_cast<size_t>(got);
   }
+  return true;
+}
+
+std::optional<Answer> receive(int descriptor, const std::function<void(const std::string&)>& heard) {
+  Frame frame;
+  while (receive(descriptor, &frame, sizeof frame)) {
+    Answer answer{frame.status, std::string(frame.bytes, '\0')};
+    if (!receive(descriptor, answer.text.data(), answer.text.size())) break;
+    if (answer.status != note_status) return answer;
+    heard(answer.text);
+  }
+  return {};
 }
 
 }  // namespace
@@ -75,7 +102,8 @@ std::string ChildDeath::how() const {
                      : fmt::format("was ended by signal {} ({})", signal, ::strsignal(signal));
 }
 
-std::string run_in_child(const std::function<std::string()>& work,
+std::string run_in_child(const std::function<std::string(const Tell&)>& work,
+                         const std::function<void(const std::string& note)>& heard,
                          const std::function<void(const ChildDeath&)>& died) {
   std::array<int, 2> pipe_ends{};
   const pid_t parent = ::getpid();
@@ -92,18 +120,14 @@ std::string run_in_child(const std::function<std::string()>& work,
     ::close(pipe_ends[0]);
     throw Error(ExitStatus::input_output, fmt::format("cannot start a process: {}", std::strerror(error)));
   }
-  const std::string bytes = receive_all(pipe_ends[0]);
+  const std::optional<Answer> answer = receive(pipe_ends[0], heard);
   ::close(pipe_ends[0]);
   int state = 0;
   while (::waitpid(child, &state, 0) < 0 && errno == EINTR) {
   }
-  const bool answered = WIFEXITED(state) && WEXITSTATUS(state) == 0 && bytes.size() >= sizeof(int32_t);
-  if (!answered) died({child, WIFSIGNALED(state) ? WTERMSIG(state) : 0});
-  int32_t status = 0;
-  std::memcpy(&status, bytes.data(), sizeof status);
-  std::string text = bytes.substr(sizeof status);
-  if (status != 0) throw Error(static_cast<ExitStatus>(status), text);
-  return text;
+  if (!answer) died({child, WIFSIGNALED(state) ? WTERMSIG(state) : 0});
+  if (answer->status != 0) throw Error(static_cast<ExitStatus>(answer->status), answer->text);
+  return answer->text;
 }
 
 }  // namespace veduta

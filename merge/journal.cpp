@@ -82,7 +82,8 @@ class Collector {
 
 }  // namespace
 
-Journal read_journal(const RunPaths& run, const std::string& fingerprint, uint32_t cell_count) {
+Journal read_journal(const RunPaths& run, const std::string& fingerprint, uint32_t cell_count,
+                     const WorkHeard& heard) {
   Journal journal;
   journal.shards = find_shards(run);
   Collector collector(journal, cell_count);
@@ -94,6 +95,7 @@ Journal read_journal(const RunPaths& run, const std::string& fingerprint, uint32
         });
     journal.torn_bytes += scan.torn_bytes;
     if (scan.records > 0) renderers.insert(scan.renderer);
+    if (heard) heard("shards", s + 1, journal.shards.size());
   }
   journal.renderers.assign(renderers.begin(), renderers.end());
   journal.all_visible = static_cast<uint64_t>(std::count_if(

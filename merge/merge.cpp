@@ -31,13 +31,7 @@ std::string read_text(const std::filesystem::path& file) {
   return out.str();
 }
 
-PvsRow all_visible_row(const City& city) {
-  PvsRow row(city.scene.objects.size());
-  for (uint32_t i = 0; i < row.size(); ++i) row[i] = {i, completely_visible};
-  return row;
-}
-
-BakedCell baked_cell(const JournalEntry& entry, uint32_t cell, RecordPool& pool, const City& city,
+BakedCell baked_cell(const JournalEntry& entry, uint32_t cell, RecordPool& pool,
                      const std::filesystem::path& shard) {
   CellRecord record = pool.read(entry.shard, entry.offset);
   if (record.cell != cell || record.status != entry.status)
@@ -45,18 +39,20 @@ BakedCell baked_cell(const JournalEntry& entry, uint32_t cell, RecordPool& pool,
                 fmt::format("{}: byte {}: another record than before; was the file changed meanwhile? "
                             "Run the same command again",
                             shard.string(), entry.offset));
-  if (record.status == CellStatus::all_visible) record.row = all_visible_row(city), record.overestimate = 0;
+  // What is said of the row of another.
+  if (record.status == CellStatus::all_visible) record.row.clear(), record.overestimate = 0;
   return {record.status, record.bake_us, std::move(record.row), record.overestimate};
 }
 
-MergeResult merge(const RunPaths& run, const std::filesystem::path& output, bool partial) {
+MergeResult merge(const RunPaths& run, const std::filesystem::path& output, bool partial,
+                  const WorkHeard& heard) {
   const std::string fingerprint_text = read_text(run.fingerprint());
   PvsHeader header;
   header.fingerprint = fingerprint_text.substr(0, fingerprint_text.find_first_of("\r\n"));
   header.config = read_text(run.settings());
-  const City city = read_city(run.city());
-  const auto cell_count = static_cast<uint32_t>(city.cells.size());
-  const Journal journal = read_journal(run, header.fingerprint, cell_count);
+  const CityOutline city = read_city_outline(run.city(), heard);
+  const auto cell_count = static_cast<uint32_t>(city.cells);
+  const Journal journal = read_journal(run, header.fingerprint, cell_count, heard);
   header.renderer = fmt::format("{}", fmt::join(journal.renderers, "; "));
 
   MergeResult result;
@@ -72,14 +68,38 @@ MergeResult merge(const RunPaths& run, const std::filesystem::path& output, bool
             "{}: {} of {} cells are not baked yet; run the bake again to finish it, or merge with --partial",
             run.directory.string(), result.unfinished, cell_count));
   RecordPool pool(journal.shards);
-  result.content_digest = write_pvs(output, city, header, [&](uint32_t cell) {
+  const auto cell_of = [&](uint32_t cell) {
     const JournalEntry& entry = journal.cells[cell];
-    if (entry.shard < 0) return BakedCell{CellStatus::all_visible, 0, all_visible_row(city), 0};
-    return baked_cell(entry, cell, pool, city, journal.shards[static_cast<size_t>(entry.shard)]);
-  });
+    if (entry.shard < 0) return BakedCell{};
+    return baked_cell(entry, cell, pool, journal.shards[static_cast<size_t>(entry.shard)]);
+  };
+  remove_dead_temporaries(output);
+  result.content_digest = write_pvs(output, run.city(), city, header, cell_of, heard);
   result.bytes = std::filesystem::file_size(output);
   return result;
 }
+
+/// How far the child has come, as text: done, total, what.
+struct Note {
+  /// Nothing in the first second, then ten a second at most and the last of each work.
+  static WorkHeard sender(const Tell& tell) {
+    using Clock = std::chrono::steady_clock;
+    return [&tell, first = Clock::now() + std::chrono::seconds(1), last = Clock::time_point{}](
+               const char* what, uint64_t done, uint64_t total) mutable {
+      const auto now = Clock::now();
+      if (now < first || (done < total && now - last < std::chrono::milliseconds(100))) return;
+      last = now;
+      tell(fmt::format("{} {} {}", done, total, what));
+    };
+  }
+  static void receive(const std::string& note, const WorkHeard& heard) {
+    uint64_t done = 0, total = 0;
+    std::string what;
+    std::istringstream in(note);
+    std::getline(in >> done >> total >> std::ws, what);
+    heard(what.c_str(), done, total);
+  }
+};
 
 /// HDF5 1.10 crashes on a full disk: that, and not the crash, is then what the user has to know.
 [[noreturn]] void explain_death(const std::filesystem::path& output, const ChildDeath& death) {
@@ -103,14 +123,18 @@ MergeResult merge(const RunPaths& run, const std::filesystem::path& output, bool
 
 }  // namespace
 
-MergeResult merge_run(const RunPaths& run, const std::filesystem::path& output, bool partial) {
+MergeResult merge_run(const RunPaths& run, const std::filesystem::path& output, bool partial,
+                      const WorkHeard& heard) {
   const auto start = std::chrono::steady_clock::now();
   const std::filesystem::path file = output.empty() ? run.result() : output;
   const std::string text = run_in_child(
-      [&] {
-        const MergeResult r = merge(run, file, partial);
+      [&](const Tell& tell) {
+        const MergeResult r = merge(run, file, partial, Note::sender(tell));
         return fmt::format("{} {} {} {} {} {} {}", r.content_digest, r.cells, r.baked, r.all_visible,
                            r.unfinished, r.bytes, r.conflicts);
+      },
+      [&](const std::string& note) {
+        if (heard) Note::receive(note, heard);
       },
       [&](const ChildDeath& death) { explain_death(file, death); });
   MergeResult result;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "pvs/pvs_file.h"
 #include "pvs/run_paths.h"
 #include "pvs/visibility.h"
 
@@ -36,7 +37,8 @@ struct Journal {
 /// differently: both answers are conservative, so nothing is lost by taking the first, and it is counted.
 /// \throw Error(bad_input) for damage in the middle or a cell number out of range; Error(other_job) for a
 /// shard of another job.
-Journal read_journal(const RunPaths& run, const std::string& fingerprint, uint32_t cell_count);
+Journal read_journal(const RunPaths& run, const std::string& fingerprint, uint32_t cell_count,
+                     const WorkHeard& heard = {});
 
 struct MergeResult {
   std::string content_digest;
@@ -46,9 +48,12 @@ struct MergeResult {
 };
 
 /// Merges a run directory into `output` (default: RunPaths::result()). Cells without a record are an error
-/// unless `partial`, which records them all visible. Safe at any time: the old file stays until the new one
-/// is whole and checked. \throw Error(stopped_early) when cells are missing and not `partial`; else as
-/// read_journal and write_pvs.
-MergeResult merge_run(const RunPaths& run, const std::filesystem::path& output, bool partial);
+/// unless `partial`, which records them all visible: such a file is a valid PVS. Safe at any time, also while
+/// a bake writes the shards and beside another merge: the old file stays until the new one is whole and
+/// checked, and what killed merges left is removed. Takes about 45 bytes a cell, 4 an object, and at most 50
+/// MB. \throw Error(stopped_early) when cells are missing and not `partial`; else as read_journal and
+/// write_pvs.
+MergeResult merge_run(const RunPaths& run, const std::filesystem::path& output, bool partial,
+                      const WorkHeard& heard = {});
 
 }  // namespace veduta

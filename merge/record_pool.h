@@ -1,4 +1,4 @@
-// Records by shard and offset, with the files kept open.
+// Records by shard and offset, with the files kept open that were read last.
 #pragma once
 
 #include <cstdint>
@@ -17,19 +17,32 @@ class RecordPool {
 
   /// \throw Error as ShardReader.
   CellRecord read(int32_t shard, uint64_t offset) {
-    auto open = open_.find(shard);
-    if (open == open_.end()) {
-      // A long run has thousands of shards; a process may have some thousand files open.
-      if (open_.size() >= open_limit) open_.clear();
-      open = open_.emplace(shard, ShardReader(shards_[static_cast<size_t>(shard)])).first;
+    auto found = open_.find(shard);
+    if (found == open_.end()) {
+      if (open_.size() >= open_limit) close_oldest();
+      found = open_.emplace(shard, Open{0, ShardReader(shards_[static_cast<size_t>(shard)])}).first;
     }
-    return open->second.read(offset);
+    found->second.last_use = ++uses_;
+    return found->second.reader.read(offset);
   }
 
  private:
-  static constexpr size_t open_limit = 128;
+  struct Open {
+    uint64_t last_use;
+    ShardReader reader;
+  };
+  void close_oldest() {
+    auto oldest = open_.begin();
+    for (auto at = open_.begin(); at != open_.end(); ++at)
+      if (at->second.last_use < oldest->second.last_use) oldest = at;
+    open_.erase(oldest);
+  }
+
+  // A long run has thousands of shards; a process may have some thousand files open, and each takes 64 KiB.
+  static constexpr size_t open_limit = 256;
   const std::vector<std::filesystem::path>& shards_;
-  std::map<int32_t, ShardReader> open_;
+  std::map<int32_t, Open> open_;
+  uint64_t uses_ = 0;
 };
 
 }  // namespace veduta

@@ -15,6 +15,9 @@ enum class CityParts { all, to_bake };
 /// digests are those that they should have. Digests are compared, relations not yet.
 City read_city_columns(const hdf5::Input& input, ColumnDigests& digests, CityParts parts = CityParts::all);
 
+/// Reads where the lattices of a navigation lie, and nothing of what is in them.
+void read_lattices(const hdf5::Input& input, Navigation& navigation);
+
 /// Writes and reads the root's attributes. Reading compares the format, the version and the digest over them.
 void write_root(hdf5::Output& output, const RootAttributes& root);
 RootAttributes read_root(const hdf5::Input& input, const std::string& format);
@@ -22,6 +25,10 @@ RootAttributes read_root(const hdf5::Input& input, const std::string& format);
 /// Reads every dataset again and compares with what was meant to be written: HDF5 1.10 has closed a file on a
 /// full disk successfully, with other values in it. \throw Error(input_output).
 void check_written(const std::filesystem::path& temporary, const ColumnDigests& digests,
-                   const RootAttributes& root);
+                   const RootAttributes& root, const WorkHeard& heard = {});
+
+/// Reads the named datasets of a file in blocks, compares their digests with their values and hands them out.
+void read_columns(const hdf5::Input& input, const std::vector<const Column*>& columns, ColumnDigests& digests,
+                  const char* what, const WorkHeard& heard);
 
 }  // namespace veduta

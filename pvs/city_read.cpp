@@ -71,12 +71,15 @@ void pass_over(const Input& input, const Column& column, ColumnDigests& digests)
   digests[column.path] = ColumnReader(input, column).stated_digest();
 }
 
+void read_lattice(const Input& input, const char* group, OctreeForest& forest) {
+  const auto lower = input.floats(group, "lower", 3);
+  forest.lower = {lower[0], lower[1], lower[2]};
+  forest.leaf_size_m = input.floats(group, "leaf_size_m", 1)[0];
+  forest.depth = input.number(group, "depth");
+}
+
 void read_forest(const Input& input, const column::ForestColumns& columns, OctreeForest& forest, bool nodes,
                  ColumnDigests& digests) {
-  const auto lower = input.floats(columns.group, "lower", 3);
-  forest.lower = {lower[0], lower[1], lower[2]};
-  forest.leaf_size_m = input.floats(columns.group, "leaf_size_m", 1)[0];
-  forest.depth = input.number(columns.group, "depth");
   if (!nodes) {
     for (const Column& column : {columns.roots, columns.states, columns.first_child})
       pass_over(input, column, digests);
@@ -89,13 +92,10 @@ void read_forest(const Input& input, const column::ForestColumns& columns, Octre
 
 void read_navigation(const Input& input, CityParts parts, Navigation& navigation, ColumnDigests& digests) {
   const bool all = parts == CityParts::all;
+  read_lattices(input, navigation);
   read_forest(input, column::free_forest, navigation.free, true, digests);
   read_forest(input, column::surface_forest, navigation.surfaces, all, digests);
   HeightField& ground = navigation.ground;
-  const auto corner = input.floats("/navigation/ground", "lower", 2);
-  ground.lower_x = corner[0];
-  ground.lower_y = corner[1];
-  ground.step_m = input.floats("/navigation/ground", "step_m", 1)[0];
   if (!all) return pass_over(input, column::ground_height, digests);
   const ColumnReader height(input, column::ground_height);
   if (height.rows() > UINT32_MAX || height.columns() > UINT32_MAX)
@@ -109,6 +109,15 @@ void read_navigation(const Input& input, CityParts parts, Navigation& navigation
 }
 
 }  // namespace
+
+void read_lattices(const Input& input, Navigation& navigation) {
+  read_lattice(input, column::free_forest.group, navigation.free);
+  read_lattice(input, column::surface_forest.group, navigation.surfaces);
+  const auto corner = input.floats("/navigation/ground", "lower", 2);
+  navigation.ground.lower_x = corner[0];
+  navigation.ground.lower_y = corner[1];
+  navigation.ground.step_m = input.floats("/navigation/ground", "step_m", 1)[0];
+}
 
 City read_city_columns(const Input& input, ColumnDigests& digests, CityParts parts) {
   City city;

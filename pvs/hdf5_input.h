@@ -33,6 +33,7 @@ class Input {
 
   [[noreturn]] void fail(const std::string& place, const std::string& what) const;
   uint64_t file_bytes() const { return file_bytes_; }
+  hid_t id() const { return file_.get(); }
 
  private:
   friend class ColumnReader;

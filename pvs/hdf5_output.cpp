@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 #include <sys/statvfs.h>
 
-#include <algorithm>
-
+#include "pvs/hdf5_input.h"
 #include "scene/error.h"
 
 namespace veduta::hdf5 {
@@ -13,7 +12,6 @@ namespace {
 
 // What HDF5 itself may still have to write at any time: superblock, headers, chunk indices, one chunk.
 constexpr uint64_t metadata_reserve_bytes = 4u << 20;
-constexpr unsigned deflate_level = 4;
 
 uint64_t free_bytes(const std::filesystem::path& file) {
   const auto parent = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
@@ -126,6 +124,12 @@ void Output::attribute(const char* object, const char* name, const std::array<do
   raw_attribute(opened.get(), object, name, H5T_IEEE_F64LE, values.data(), values.size());
 }
 
+void Output::copy(const Input& from, const char* path) {
+  require_space(from.file_bytes());
+  if (H5Ocopy(from.id(), path, file_.get(), path, H5P_DEFAULT, H5P_DEFAULT) < 0)
+    fail(path, "cannot be copied");
+}
+
 void Output::remove(const char* path) {
   if (H5Ldelete(file_.get(), path, H5P_DEFAULT) < 0) fail(path, "cannot be removed");
 }
@@ -133,76 +137,6 @@ void Output::remove(const char* path) {
 void Output::close() {
   if (H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) < 0) fail("/", "cannot write");
   if (!file_.close()) fail("/", "cannot close the file");
-}
-
-ColumnWriter::ColumnWriter(Output& output, const Column& column, uint64_t expected_rows, size_t text_bytes,
-                           uint64_t columns)
-    : output_(output), column_(column), columns_(column.columns > 0 ? column.columns : columns) {
-  row_bytes_ = element_bytes(column.element, text_bytes) * columns_;
-  chunk_rows_ = std::max<size_t>(1, chunk_bytes / std::max<size_t>(1, row_bytes_));
-  if (expected_rows > 0) chunk_rows_ = std::min<size_t>(chunk_rows_, expected_rows);
-  type_ = element_type(column.element, text_bytes);
-  const int rank = column.columns == 1 ? 1 : 2;
-  const hsize_t extent[2] = {0, columns_};
-  const hsize_t limit[2] = {H5S_UNLIMITED, columns_ > 0 ? columns_ : H5S_UNLIMITED};
-  const hsize_t chunk[2] = {chunk_rows_, std::max<uint64_t>(1, columns_)};
-  Handle space(H5Screate_simple(rank, extent, limit), H5Sclose);
-  Handle create(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
-  // Only whole chunks are written, each once: a cache would only put writing off to where errors get lost.
-  if (H5Pset_chunk(create.get(), rank, chunk) < 0 || H5Pset_shuffle(create.get()) < 0 ||
-      H5Pset_deflate(create.get(), deflate_level) < 0 || H5Pset_fletcher32(create.get()) < 0 ||
-      H5Pset_obj_track_times(create.get(), false) < 0 || H5Pset_chunk_cache(access.get(), 0, 0, 1.0) < 0)
-    output_.fail(column.path, "HDF5 refuses its settings");
-  dataset_ = {H5Dcreate2(output_.id(), column.path, type_.get(), space.get(), H5P_DEFAULT, create.get(),
-                         access.get()),
-              H5Dclose};
-  if (!dataset_.valid()) output_.fail(column.path, "cannot create the dataset");
-}
-
-void ColumnWriter::append(const void* rows, size_t count) {
-  const auto* data = static_cast<const std::byte*>(rows);
-  const size_t block = chunk_rows_ * row_bytes_;
-  digest_.update(data, count * row_bytes_);
-  rows_ += count;
-  size_t left = count * row_bytes_;
-  while (left > 0) {
-    const size_t take = std::min(left, block - pending_.size());
-    pending_.insert(pending_.end(), data, data + take);
-    data += take;
-    left -= take;
-    if (pending_.size() == block) write_pending();
-  }
-}
-
-void ColumnWriter::write_pending() {
-  const size_t rows = pending_.size() / std::max<size_t>(1, row_bytes_);
-  if (rows == 0) return;
-  output_.require_space(pending_.size());
-  const int rank = column_.columns == 1 ? 1 : 2;
-  const hsize_t extent[2] = {written_ + rows, columns_};
-  const hsize_t start[2] = {written_, 0};
-  const hsize_t count[2] = {rows, columns_};
-  bool good = H5Dset_extent(dataset_.get(), extent) >= 0;
-  Handle file_space(H5Dget_space(dataset_.get()), H5Sclose);
-  Handle memory_space(H5Screate_simple(rank, count, nullptr), H5Sclose);
-  good = good && H5Sselect_hyperslab(file_space.get(), H5S_SELECT_SET, start, nullptr, count, nullptr) >= 0 &&
-         H5Dwrite(dataset_.get(), type_.get(), memory_space.get(), file_space.get(), H5P_DEFAULT,
-                  pending_.data()) >= 0;
-  if (!good) output_.fail(column_.path, "cannot write");
-  written_ += rows;
-  pending_.clear();
-}
-
-std::string ColumnWriter::finish() {
-  write_pending();
-  const uint64_t extent[2] = {rows_, columns_};
-  digest_.update(extent, column_.columns == 1 ? 8 : 16);
-  const std::string hex = digest_.hex();
-  output_.text_attribute(dataset_.get(), column_.path, "description", column_.description);
-  output_.text_attribute(dataset_.get(), column_.path, "digest", hex);
-  if (!dataset_.close()) output_.fail(column_.path, "cannot close the dataset");
-  return hex;
 }
 
 }  // namespace veduta::hdf5

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <deque>
 #include <filesystem>
+#include <future>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,9 @@ namespace veduta::hdf5 {
 
 /// Copies a file that an Output closed, for one that goes on with it. \throw Error(input_output).
 void copy_output(const std::filesystem::path& from, const std::filesystem::path& to);
+
+class ColumnWriter;
+class Input;
 
 /// A file to be written. Readable by every HDF5 from 1.8 on; the bytes depend on the content alone (no time
 /// stamps).
@@ -33,6 +38,9 @@ class Output {
   void attribute(const char* object, const char* name, const std::vector<float>& values);
   void attribute(const char* object, const char* name, const std::array<double, 3>& values);
 
+  /// Copies a group with all that is in it, or a dataset, as it is packed.
+  void copy(const Input& from, const char* path);
+
   /// Takes a group or a dataset out; what is written after it may take its room.
   void remove(const char* path);
 
@@ -49,13 +57,24 @@ class Output {
                      size_t count);
   void text_attribute(hid_t object, const char* place, const char* name, const std::string& text);
   friend class ColumnWriter;
+  /// A chunk that is being packed, on another core if there is one.
+  struct Packing {
+    ColumnWriter* column;
+    uint64_t rows;
+    std::future<std::vector<std::byte>> packed;
+  };
+  void submit(ColumnWriter& column, std::vector<std::byte>&& block, uint64_t rows);
+  void write_oldest();
+  void write_submitted();
 
   std::filesystem::path path_;
   Handle file_;
+  std::deque<Packing> packing_;  ///< oldest first: the order in which they are written
 };
 
-/// One dataset, written in whole chunks as rows come: chunked, shuffle, deflate, fletcher32, with attributes
-/// `description` and `digest` (XXH3-128 over the values in order, then the extents as u64).
+/// One dataset, written in whole chunks as rows come (chunks of several datasets may be on their way; nothing
+/// else is written to the file until they are finished): chunked, shuffle, deflate, fletcher32, with
+/// attributes `description` and `digest` (XXH3-128 over the values in order, then the extents as u64).
 class ColumnWriter {
  public:
   /// \param expected_rows so that the chunk of a small dataset is small; 0: not known.
@@ -69,13 +88,15 @@ class ColumnWriter {
   uint64_t rows() const { return rows_; }
 
  private:
-  void write_pending();
+  friend class Output;
+  void submit_pending();
+  void write_chunk(const std::vector<std::byte>& packed, uint64_t rows);
 
   Output& output_;
   const Column& column_;
   uint64_t columns_;
-  size_t row_bytes_, chunk_rows_;
-  Handle type_, dataset_;
+  size_t element_bytes_, row_bytes_ = 0, chunk_rows_ = 0;
+  Handle dataset_;
   std::vector<std::byte> pending_;
   uint64_t rows_ = 0, written_ = 0;
   Digest digest_;

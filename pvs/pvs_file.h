@@ -75,7 +75,7 @@ PvsFile read_pvs(const std::filesystem::path& file);
 struct BakedCell {
   CellStatus status = CellStatus::all_visible;
   uint32_t bake_us = 0;
-  PvsRow row;
+  PvsRow row;              ///< of an all-visible cell it is not looked at: all objects are in it
   float overestimate = 0;  ///< certified; 0: nobody looked
 };
 using CellSource = std::function<BakedCell(uint32_t cell)>;
@@ -86,6 +86,27 @@ using CellSource = std::function<BakedCell(uint32_t cell)>;
 /// writable; nothing is left behind.
 std::string write_pvs(const std::filesystem::path& file, const City& city, const PvsHeader& header,
                       const CellSource& cells);
+
+/// How far a long work has come, for who waits: what it does now, and done of total.
+using WorkHeard = std::function<void(const char* what, uint64_t done, uint64_t total)>;
+
+/// What writing rows needs to know of a prepared city: all but its geometry, its cells' bounds and its trees.
+struct CityOutline {
+  uint64_t cells = 0;
+  std::vector<SliceCounts> slices;             ///< [N] per object
+  City frame;                                  ///< crs, origin and the lattices of its navigation; else empty
+  std::map<std::string, std::string> digests;  ///< by path of the dataset
+};
+
+/// Reads a prepared city in little memory and checks every dataset, but not the relations between them, which
+/// its writer checked. \throw Error as read_city.
+CityOutline read_city_outline(const std::filesystem::path& city_file, const WorkHeard& heard = {});
+
+/// As write_pvs of the city that was read from `city_file`, in little memory: the city is copied from file to
+/// file. For each cell 21 to 27 bytes are kept, and 4 for each object.
+std::string write_pvs(const std::filesystem::path& file, const std::filesystem::path& city_file,
+                      const CityOutline& city, const PvsHeader& header, const CellSource& cells,
+                      const WorkHeard& heard = {});
 
 /// The prepared city (`prepared/city.h5`): the same layout without /pvs and /cells rows, with the same
 /// checks.

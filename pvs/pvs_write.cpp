@@ -1,9 +1,8 @@
 #include <fmt/format.h>
 
-#include <unordered_map>
-
 #include "pvs/city_columns.h"
 #include "pvs/pvs_check.h"
+#include "pvs/row_table.h"
 #include "scene/atomic_file.h"
 #include "scene/error.h"
 
@@ -14,28 +13,25 @@ namespace {
 using hdf5::ColumnWriter;
 using hdf5::Output;
 
-struct HashOfHash {
-  size_t operator()(const Hash128& hash) const { return hash.low; }
-};
-
-/// Writes /cells and /pvs while rows come. In memory: one hash per unique row, and a chunk of each dataset.
+/// Writes /cells and /pvs while rows come. In memory: a RowTable, and a few chunks of each dataset.
 /// Rows are called equal when their 128-bit hashes are; among 10^9 different rows, two share one with a
 /// chance of 10^-21.
 class RowWriter {
  public:
-  RowWriter(Output& output, const City& city)
-      : cell_row_(output, column::cell_row, city.cells.size()),
-        bake_us_(output, column::cell_bake_us, city.cells.size()),
-        status_(output, column::cell_status, city.cells.size()),
-        overestimate_(output, column::cell_overestimate, city.cells.size()),
-        begin_(output, column::pvs_begin, city.cells.size() + 1),
+  RowWriter(Output& output, uint64_t cells, size_t objects)
+      : cell_row_(output, column::cell_row, cells),
+        bake_us_(output, column::cell_bake_us, cells),
+        status_(output, column::cell_status, cells),
+        overestimate_(output, column::cell_overestimate, cells),
+        begin_(output, column::pvs_begin, cells + 1),
         object_(output, column::pvs_object, 0),
-        index_(output, column::pvs_index, 0) {
+        index_(output, column::pvs_index, 0),
+        object_count_(objects) {
     begin_.append(&entries_, 1);
   }
 
   void add(const BakedCell& cell) {
-    const uint32_t row = row_of(cell.row);
+    const uint32_t row = cell.status == CellStatus::all_visible ? row_of_all_objects() : row_of(cell.row);
     cell_row_.append(&row, 1);
     bake_us_.append(&cell.bake_us, 1);
     status_.append(&cell.status, 1);
@@ -63,28 +59,40 @@ class RowWriter {
     const Hash128 of_objects = hash128(objects_.data(), objects_.size() * sizeof(uint32_t));
     const Hash128 of_indices = hash128(indices_.data(), indices_.size() * sizeof(VisibilityIndex));
     const Hash128 both[2] = {of_objects, of_indices};
-    const auto [known, added] =
-        rows_.try_emplace(hash128(both, sizeof both), static_cast<uint32_t>(rows_.size()));
+    const auto [number, added] = rows_.add(hash128(both, sizeof both));
     if (added) {
       object_.append(objects_.data(), objects_.size());
       index_.append(indices_.data(), indices_.size());
       entries_ += row.size();
       begin_.append(&entries_, 1);
     }
-    return known->second;
+    return number;
+  }
+
+  /// Made once: of a partial file it is the row of most cells.
+  uint32_t row_of_all_objects() {
+    if (!all_objects_) {
+      PvsRow row(object_count_);
+      for (uint32_t i = 0; i < row.size(); ++i) row[i] = {i, completely_visible};
+      all_objects_ = row_of(row);
+    }
+    return *all_objects_;
   }
 
   ColumnWriter cell_row_, bake_us_, status_, overestimate_, begin_, object_, index_;
   uint64_t entries_ = 0;
-  std::unordered_map<Hash128, uint32_t, HashOfHash> rows_;
+  size_t object_count_;
+  std::optional<uint32_t> all_objects_;
+  RowTable rows_;
   std::vector<uint32_t> objects_;
   std::vector<VisibilityIndex> indices_;
 };
 
-BakedCell ask(const CellSource& cells, uint32_t number, const City& city, const std::filesystem::path& file) {
+BakedCell ask(const CellSource& cells, uint32_t number, const std::vector<SliceCounts>& slices,
+              const std::filesystem::path& file) {
   BakedCell cell = cells(number);
   const PvsEntry* first = cell.row.data();
-  auto defect = find_defect(first, first + cell.row.size(), city.slices);
+  auto defect = find_defect(first, first + cell.row.size(), slices);
   if (!is_overestimate(cell.overestimate)) defect = fmt::format("an over-estimate of {}", cell.overestimate);
   if (defect)
     throw Error(ExitStatus::defect, fmt::format("{}: cell {}: {}; a defect of the bake, please report it",
@@ -114,36 +122,73 @@ RootAttributes root_of(const City& city, const char* format) {
   return root;
 }
 
+/// The rows and the root of a file whose city is written by others.
+struct RowsJob {
+  const std::filesystem::path& file;
+  uint64_t cell_count;
+  const std::vector<SliceCounts>& slices;
+  const City& frame;
+  const CellSource& cells;
+  const WorkHeard& heard;
+
+  void write_rows(Output& output, RootAttributes& root, ColumnDigests& digests) const {
+    output.group("/pvs");
+    RowWriter rows(output, cell_count, slices.size());
+    for (uint32_t c = 0; c < cell_count; ++c) {
+      const BakedCell cell = ask(cells, c, slices, file);
+      if (cell.status != CellStatus::baked) root.header.complete = false;
+      rows.add(cell);
+      if (heard) heard("rows", c + 1, cell_count);
+    }
+    rows.finish(digests);
+  }
+
+  std::string write(const PvsHeader& header,
+                    const std::function<void(Output&, ColumnDigests&)>& write_place) const {
+    RootAttributes root = root_of(frame, pvs_format);
+    root.header = header;
+    root.header.complete = true;
+    ColumnDigests digests;
+    write_atomically(
+        file,
+        [&](const std::filesystem::path& temporary) {
+          Output output(temporary);
+          write_place(output, digests);
+          write_rows(output, root, digests);
+          root.content_digest = content_digest(frame, root.header.conservative, digests);
+          write_root(output, root);
+          output.close();
+        },
+        [&](const std::filesystem::path& temporary) { check_written(temporary, digests, root, heard); });
+    return root.content_digest;
+  }
+};
+
 }  // namespace
 
 std::string write_pvs(const std::filesystem::path& file, const City& city, const PvsHeader& header,
                       const CellSource& cells) {
   refuse_defects(city, file);
-  RootAttributes root = root_of(city, pvs_format);
-  root.header = header;
-  root.header.complete = true;
-  ColumnDigests digests;
-  write_atomically(
-      file,
-      [&](const std::filesystem::path& temporary) {
-        Output output(temporary);
-        output.require_space(least_bytes(city));
-        write_scene_columns(output, city, digests);
-        write_place_columns(output, city, digests);
-        output.group("/pvs");
-        RowWriter rows(output, city);
-        for (uint32_t c = 0; c < city.cells.size(); ++c) {
-          const BakedCell cell = ask(cells, c, city, file);
-          if (cell.status != CellStatus::baked) root.header.complete = false;
-          rows.add(cell);
-        }
-        rows.finish(digests);
-        root.content_digest = content_digest(city, root.header.conservative, digests);
-        write_root(output, root);
-        output.close();
-      },
-      [&](const std::filesystem::path& temporary) { check_written(temporary, digests, root); });
-  return root.content_digest;
+  RowsJob job{file, city.cells.size(), city.slices, city, cells, {}};
+  return job.write(header, [&](Output& output, ColumnDigests& digests) {
+    output.require_space(least_bytes(city));
+    write_scene_columns(output, city, digests);
+    write_place_columns(output, city, digests);
+  });
+}
+
+std::string write_pvs(const std::filesystem::path& file, const std::filesystem::path& city_file,
+                      const CityOutline& city, const PvsHeader& header, const CellSource& cells,
+                      const WorkHeard& heard) {
+  RowsJob job{file, city.cells, city.slices, city.frame, cells, heard};
+  return job.write(header, [&](Output& output, ColumnDigests& digests) {
+    const hdf5::Input input(city_file);
+    output.copy(input, "/scene");
+    output.copy(input, "/navigation");
+    output.group("/cells");
+    output.copy(input, column::cell_bounds.path);
+    digests = city.digests;
+  });
 }
 
 void write_city(const std::filesystem::path& file, const City& city) {

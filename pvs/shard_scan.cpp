@@ -22,9 +22,10 @@ namespace veduta {
 namespace {
 
 /// Reads at offsets through a window, so that neither many small reads nor a large file in memory are needed.
+/// It is small at first and after a jump, and grows while reading goes on where it ended.
 class Window {
  public:
-  explicit Window(const std::filesystem::path& file) : file_(file) {
+  Window(const std::filesystem::path& file, uint64_t limit) : file_(file), limit_(limit) {
     descriptor_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
     struct stat status {};
     if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
@@ -58,9 +59,10 @@ class Window {
 
  private:
   void fill(uint64_t offset, uint64_t count) {
-    constexpr uint64_t window = 1 << 18;
+    const bool goes_on = offset >= begin_ && offset <= begin_ + bytes_.size();
+    ahead_ = goes_on ? std::min(4 * ahead_, limit_) : std::min(first_ahead, limit_);
     begin_ = offset;
-    bytes_.resize(std::min(std::max(count, window), size_ - offset));
+    bytes_.resize(std::min(std::max(count, ahead_), size_ - offset));
     size_t done = 0;
     while (done < bytes_.size()) {
       const ssize_t got =
@@ -75,9 +77,11 @@ class Window {
     bytes_.resize(done);
   }
 
+  static constexpr uint64_t first_ahead = 1 << 13;
   std::filesystem::path file_;
+  uint64_t limit_;
   int descriptor_ = -1;
-  uint64_t size_ = 0, begin_ = 0;
+  uint64_t size_ = 0, begin_ = 0, ahead_ = first_ahead / 4;
   std::vector<std::byte> bytes_;
 };
 
@@ -111,8 +115,8 @@ std::optional<uint64_t> next_whole_record(Window& file, uint64_t offset) {
   throw Error(
       ExitStatus::bad_input,
       fmt::format(
-          "{}: byte {}: damaged, with a valid record behind it at byte {}; restore the file, or remove it "
-          "to bake its cells again",
+          "{}: byte {}: damaged, with a valid record behind it at byte {}; restore the file, or move it out "
+          "of the run directory and run the bake again: its cells are baked once more",
           file.string(), bad, next));
 }
 
@@ -158,7 +162,7 @@ std::optional<Header> read_header(Window& window, const std::filesystem::path& f
 
 ShardScan scan_shard(const std::filesystem::path& file, const std::string& fingerprint,
                      const std::function<void(CellRecord&&, uint64_t offset)>& visit) {
-  Window window(file);
+  Window window(file, 1 << 18);
   ShardScan scan;
   const auto header = read_header(window, file);
   if (!header) {
@@ -196,7 +200,7 @@ struct ShardReader::File {
   Window window;
 };
 
-ShardReader::ShardReader(const std::filesystem::path& file) : file_(new File{file, Window(file)}) {}
+ShardReader::ShardReader(const std::filesystem::path& file) : file_(new File{file, Window(file, 1 << 16)}) {}
 ShardReader::~ShardReader() = default;
 ShardReader::ShardReader(ShardReader&&) noexcept = default;
 ShardReader& ShardReader::operator=(ShardReader&&) noexcept = default;

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -15,31 +16,70 @@ namespace veduta {
 
 namespace {
 
+constexpr const char* temporary_mark = ".tmp.";
+
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+}
+
 [[noreturn]] void fail(const std::filesystem::path& file, const char* what) {
   throw Error(ExitStatus::input_output, fmt::format("{}: {}: {}", file.string(), what, std::strerror(errno)));
 }
 
-/// Says why a file cannot be made: HDF5, for one, hardly does.
-void probe(const std::filesystem::path& temporary) {
-  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0) fail(temporary, "cannot create the file");
-  ::close(descriptor);
-}
+/// The temporary file, empty and locked for as long as this lives: whoever gets the lock knows that its
+/// writer is dead. Made here also because HDF5, for one, hardly says why a file cannot be made.
+class Temporary {
+ public:
+  explicit Temporary(const std::filesystem::path& name) {
+    while (!make(name)) ::close(descriptor_);
+  }
+  ~Temporary() { ::close(descriptor_); }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+
+ private:
+  /// \return is it still there? Somebody may have taken it for a dead writer's before it was locked.
+  bool make(const std::filesystem::path& name) {
+    descriptor_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) fail(name, "cannot create the file");
+    // Where there are no locks, dead writers' files stay.
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      ::close(descriptor_);
+      throw Error(ExitStatus::input_output,
+                  fmt::format("{}: a process of the same number on another host writes it; run again",
+                              name.string()));
+    }
+    struct stat mine {
+    }, named{};
+    if (::fstat(descriptor_, &mine) != 0 || ::ftruncate(descriptor_, 0) != 0) {
+      ::close(descriptor_);
+      fail(name, "cannot write the file");
+    }
+    return ::stat(name.c_str(), &named) == 0 && mine.st_ino == named.st_ino;
+  }
+
+  int descriptor_ = -1;
+};
 
 }  // namespace
 
 std::filesystem::path temporary_name(const std::filesystem::path& file, long pid) {
-  return file.string() + fmt::format(".tmp.{}", pid);
+  return file.string() + fmt::format("{}{}", temporary_mark, pid);
 }
 
 void write_atomically(const std::filesystem::path& file,
                       const std::function<void(const std::filesystem::path&)>& write,
                       const std::function<void(const std::filesystem::path&)>& check) {
-  if (std::error_code error; std::filesystem::is_directory(file, error))
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored))
     throw Error(ExitStatus::input_output, fmt::format("{}: is a directory; name a file", file.string()));
+  if (std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored))
+    throw Error(
+        ExitStatus::input_output,
+        fmt::format("{}: is a device or pipe, which a file would replace; name a file", file.string()));
   const std::filesystem::path temporary = temporary_name(file, ::getpid());
+  const Temporary locked(temporary);
   try {
-    probe(temporary);
     write(temporary);
     if (check) check(temporary);
     sync_path(temporary);
@@ -48,7 +88,23 @@ void write_atomically(const std::filesystem::path& file,
     ::unlink(temporary.c_str());
     throw;
   }
-  sync_path(file.has_parent_path() ? file.parent_path() : ".");
+  sync_path(folder_of(file));
+}
+
+void remove_dead_temporaries(const std::filesystem::path& file) {
+  const std::string beginning = file.filename().string() + temporary_mark;
+  std::error_code error;
+  std::filesystem::directory_iterator entries(folder_of(file), error), end;
+  for (; !error && entries != end; entries.increment(error)) {
+    const std::string name = entries->path().filename().string();
+    if (!name.starts_with(beginning) ||
+        name.find_first_not_of("0123456789", beginning.size()) != std::string::npos)
+      continue;
+    const int descriptor = ::open(entries->path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
+    if (descriptor < 0) continue;
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) ::unlink(entries->path().c_str());
+    ::close(descriptor);
+  }
 }
 
 }  // namespace veduta

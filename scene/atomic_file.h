@@ -16,4 +16,8 @@ void write_atomically(const std::filesystem::path& file,
 /// died.
 std::filesystem::path temporary_name(const std::filesystem::path& file, long pid);
 
+/// Removes what writers of `file` left that were killed, on whatever host: their locks are gone. Those of
+/// living writers stay, and all of them where the file system has no locks.
+void remove_dead_temporaries(const std::filesystem::path& file);
+
 }  // namespace veduta

@@ -42,15 +42,18 @@ TEST_F(Bake, FilesThatMayNotGrowAreAnErrorWithAMessage) {
   EXPECT_EQ(run(bake()), 0) << output;
 }
 
+/// A writer holds the lock of what it writes for as long as it lives, on whatever host.
 TEST_F(Bake, WhatKilledWritersLeftIsRemoved) {
-  Process gone("true", {}, directory / "gone.txt");
-  const std::string dead = std::to_string(gone.pid()), alive = std::to_string(getpid());
-  gone.wait();
   fs::create_directories(directory / "run");
-  for (const std::string& pid : {dead, alive}) std::ofstream(directory / "run" / ("city.pvs.h5.tmp." + pid));
+  const auto dead = directory / "run" / "city.pvs.h5.tmp.17",
+             alive = directory / "run" / "city.pvs.h5.tmp.18";
+  std::ofstream(dead) << "half a file";
+  const int held = open(alive.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  ASSERT_EQ(flock(held, LOCK_EX), 0);
   ASSERT_EQ(run(bake()), 0) << output;
-  EXPECT_FALSE(fs::exists(directory / "run" / ("city.pvs.h5.tmp." + dead)));
-  EXPECT_TRUE(fs::exists(directory / "run" / ("city.pvs.h5.tmp." + alive)));
+  EXPECT_FALSE(fs::exists(dead));
+  EXPECT_TRUE(fs::exists(alive));
+  close(held);
 }
 
 TEST_F(Bake, FreshRemovesOnlyWhatABakeWrote) {

@@ -1,4 +1,4 @@
-// The merger against its machine: memory, full disks, places that cannot be written.
+// The merger against its machine: memory, full disks, places that cannot be written (R7).
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -49,6 +49,28 @@ TEST(MergeDisk, MemoryDoesNotGrowWithTheShards) {
   EXPECT_LT(children_peak_bytes(), before + shard_bytes / 4);
 }
 
+/// What grows with the cells: their entries in the journal and the hashes of their rows.
+TEST(MergeDisk, MemoryOfACellIsSmall) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer keeps freed memory";
+#endif
+  const auto merge_cells = [](uint32_t cells) {
+    RunDirectory run(small_city(1000, cells));
+    {
+      ShardWriter writer(run.paths.shards() / "a", job, "llvmpipe");
+      for (uint32_t c = 0; c < cells; ++c)
+        writer.append(
+            {c, CellStatus::baked, 1, {{c % 991, completely_visible}, {992 + c / 991 % 8, {1, 0, 1}}}});
+    }
+    merge_run(run.paths, {}, false);
+  };
+  merge_cells(100);
+  const uint64_t before = children_peak_bytes();
+  constexpr uint32_t cells = 200000;
+  merge_cells(cells);
+  EXPECT_LT(children_peak_bytes(), before + 64 * cells + (16u << 20));
+}
+
 TEST(MergeDisk, UnwritableOutputLeavesTheOldFile) {
   RunDirectory run;
   run.whole();
@@ -59,6 +81,9 @@ TEST(MergeDisk, UnwritableOutputLeavesTheOldFile) {
             ExitStatus::input_output);
   EXPECT_EQ(status_of([&] { merge_run(run.paths, run.directory / "none" / "a.h5", false); }),
             ExitStatus::input_output);
+  std::string message;
+  EXPECT_EQ(status_of([&] { merge_run(run.paths, "/dev/full", false); }, &message), ExitStatus::input_output);
+  EXPECT_NE(message.find("/dev/full: is a device"), std::string::npos) << message;
   EXPECT_EQ(test::read_bytes(run.paths.result()), bytes);
   EXPECT_EQ(run.names(), names);
 }

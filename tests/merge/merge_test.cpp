@@ -46,6 +46,49 @@ TEST(Merge, AgainGivesTheSameFile) {
   EXPECT_EQ(test::read_bytes(run.paths.result()), bytes);
 }
 
+/// R8: how the work was shared out, in which order answers came, what was answered twice and where runs were
+/// killed leave no trace in the file.
+TEST(Merge, BytesDoNotDependOnTheShards) {
+  const City city = small_city(3000, 400);
+  const auto row_of = [](uint32_t c) {
+    CellRecord r = record(c);
+    for (uint32_t i = c % 7; i < 3000; i += 2 + (i ^ c) % 40)
+      if (i > 2) r.row.push_back({i, completely_visible});
+    return r;
+  };
+  std::vector<std::string> files;
+  for (const uint32_t shards : {1u, 3u, 50u}) {
+    RunDirectory run(city);
+    for (uint32_t s = 0; s < shards; ++s) {
+      std::vector<CellRecord> records;
+      for (uint32_t c = 0; c < 400; ++c)
+        if ((c / 7 * 31 + shards) % shards == s || (shards == 3 && c % 10 == 0)) records.push_back(row_of(c));
+      if (s % 2 == 1) std::reverse(records.begin(), records.end());
+      run.shard(std::to_string(s), records);
+      if (shards > 1) {
+        const auto file = run.paths.shards() / ("torn" + std::to_string(s));
+        run.shard(file.filename(), {row_of(s), row_of(s + 1)});
+        test::write_bytes(file, test::read_bytes(file).substr(0, 300 + s));
+      }
+    }
+    merge_run(run.paths, {}, false);
+    files.push_back(test::read_bytes(run.paths.result()));
+  }
+  EXPECT_TRUE(files[0] == files[1]);
+  EXPECT_TRUE(files[0] == files[2]);
+}
+
+/// Unfinished cells of a large city share one row: its length times their number would be a day's work.
+TEST(Merge, PartialFileOfALargeCityIsMadeAtOnce) {
+  RunDirectory run(small_city(30000, 100000));
+  run.shard("a", {record(99999)});
+  EXPECT_EQ(merge_run(run.paths, {}, true).unfinished, 99999u);
+  const PvsFile file = read_pvs(run.paths.result());
+  EXPECT_EQ(file.row_begin.size(), 3u);
+  EXPECT_EQ(file.row(99998).size(), 30001u);
+  EXPECT_EQ(file.row(99999).size(), record(99999).row.size());
+}
+
 TEST(Merge, EqualDuplicatesCountOnce) {
   RunDirectory run;
   run.whole();

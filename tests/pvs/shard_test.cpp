@@ -8,7 +8,6 @@
 #include <csignal>
 #include <random>
 
-#include "pvs/crc32c.h"
 #include "scene/error.h"
 #include "tests/pvs/small_city.h"
 
@@ -53,10 +52,6 @@ Read read(const std::filesystem::path& file, const std::string& fingerprint = jo
     out.offsets.push_back(offset);
   });
   return out;
-}
-
-TEST(Shard, ChecksumIsCrc32c) {
-  EXPECT_EQ(crc32c("123456789", 9), 0xE3069283u);
 }
 
 TEST(Shard, GivesBackWhatWasAppended) {

@@ -1,0 +1,64 @@
+// After HDF5 1.10: H5Zshuffle.c, H5Zdeflate.c, H5Zfletcher32.c and H5checksum.c.
+#include "pvs/hdf5_pack.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <new>
+
+namespace veduta::hdf5 {
+
+namespace {
+
+/// First bytes of all elements, then second bytes, ...
+std::vector<std::byte> shuffle(const std::vector<std::byte>& chunk, size_t element_bytes) {
+  const size_t count = chunk.size() / element_bytes;
+  std::vector<std::byte> out(chunk.size());
+  std::byte* to = out.data();
+  for (size_t b = 0; b < element_bytes; ++b)
+    for (size_t i = 0; i < count; ++i) *to++ = chunk[i * element_bytes + b];
+  return out;
+}
+
+uint32_t fold(uint32_t sum) {
+  return (sum & 0xffff) + (sum >> 16);
+}
+
+/// Over big-endian words of 16 bits; the last of an odd number of bytes is an upper half.
+uint32_t fletcher32(const std::byte* data, size_t bytes) {
+  constexpr size_t no_overflow = 360;  // words that can be added before the sums have to be folded
+  uint32_t first = 0, second = 0;
+  const auto add = [&](std::byte high, std::byte low) {
+    first += std::to_integer<uint32_t>(high) << 8 | std::to_integer<uint32_t>(low);
+    second += first;
+  };
+  for (size_t left = bytes / 2; left > 0;) {
+    const size_t words = std::min(left, no_overflow);
+    for (size_t i = 0; i < words; ++i, data += 2) add(data[0], data[1]);
+    first = fold(first), second = fold(second);
+    left -= words;
+  }
+  if (bytes % 2 != 0) {
+    add(*data, std::byte{0});
+    first = fold(first), second = fold(second);
+  }
+  return fold(second) << 16 | fold(first);
+}
+
+}  // namespace
+
+std::vector<std::byte> pack_chunk(const std::vector<std::byte>& chunk, size_t element_bytes, int level) {
+  const std::vector<std::byte> shuffled = element_bytes > 1 ? shuffle(chunk, element_bytes) : chunk;
+  uLongf bytes = ::compressBound(shuffled.size());
+  std::vector<std::byte> packed(bytes + sizeof(uint32_t));
+  const int result = ::compress2(reinterpret_cast<Bytef*>(packed.data()), &bytes,
+                                 reinterpret_cast<const Bytef*>(shuffled.data()), shuffled.size(), level);
+  if (result != Z_OK) throw std::bad_alloc();  // the buffer is large enough: nothing else can fail
+  const uint32_t sum = fletcher32(packed.data(), bytes);
+  for (unsigned i = 0; i < sizeof sum; ++i) packed[bytes + i] = static_cast<std::byte>(sum >> (8 * i));
+  packed.resize(bytes + sizeof sum);
+  return packed;
+}
+
+}  // namespace veduta::hdf5
