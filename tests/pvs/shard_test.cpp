@@ -100,10 +100,22 @@ TEST(Shard, TheSameAnswerMayHaveAnotherBound) {
   EXPECT_FALSE(other.same_answer(record(4)));
 }
 
+/// R3: every length of the last three records, at least 250 of them.
 TEST(Shard, CutAnywhereInTheLastThreeRecordsKeepsTheOthers) {
   TemporaryDirectory directory;
-  const auto ends = write_shard(directory / "a", 12);
+  auto ends = write_shard(directory / "short", 9);
+  {
+    ShardWriter writer(directory / "a", job, "llvmpipe");
+    for (uint32_t c = 0; c < 12; ++c) {
+      CellRecord r = record(c);
+      if (c >= 9)
+        for (uint32_t i = 0; i < 12; ++i) r.row.push_back({1000 + i, completely_visible});
+      writer.append(r);
+      if (c >= 9) ends.push_back(writer.bytes());
+    }
+  }
   const std::string whole = read_bytes(directory / "a");
+  ASSERT_GE(whole.size() - ends[9], 250u);
   for (uint64_t size = ends[9]; size < whole.size(); ++size) {
     write_bytes(directory / "cut", whole.substr(0, size));
     const Read got = read(directory / "cut");
@@ -111,6 +123,9 @@ TEST(Shard, CutAnywhereInTheLastThreeRecordsKeepsTheOthers) {
     while (ends[expected + 1] <= size) ++expected;
     ASSERT_EQ(got.records.size(), expected) << size;
     ASSERT_EQ(got.scan.torn_bytes, size - ends[expected]) << size;
+    // A page that was not written in time leaves zeros up to the length that was.
+    write_bytes(directory / "zeros", whole.substr(0, size) + std::string(whole.size() - size, '\0'));
+    ASSERT_EQ(read(directory / "zeros").records.size(), expected) << size;
   }
 }
 
@@ -126,6 +141,7 @@ TEST(Shard, CutInItsHeaderIsEmpty) {
   }
 }
 
+/// R3.
 TEST(Shard, EveryBitFlipIsSeen) {
   TemporaryDirectory directory;
   write_shard(directory / "a", 10);
@@ -163,6 +179,7 @@ TEST(Shard, DamageInTheMiddleNamesFileAndByte) {
   EXPECT_NE(message.find((directory / "a").string()), std::string::npos) << message;
   EXPECT_NE(message.find("byte " + std::to_string(ends[4]) + ":"), std::string::npos) << message;
   EXPECT_EQ(message.find('\n'), std::string::npos);
+  EXPECT_NE(message.find("move it out of the run directory and run the bake again"), std::string::npos);
 }
 
 TEST(Shard, TailOfZerosIsTorn) {
@@ -174,6 +191,9 @@ TEST(Shard, TailOfZerosIsTorn) {
   EXPECT_EQ(got.scan.torn_bytes, 4096u);
   write_bytes(directory / "only", std::string(300, '\0'));
   EXPECT_EQ(read(directory / "only").scan.torn_bytes, 300u);
+  write_bytes(directory / "empty", "");
+  EXPECT_EQ(read(directory / "empty").scan.records, 0u);
+  EXPECT_EQ(read(directory / "empty").scan.torn_bytes, 0u);
 }
 
 TEST(Shard, RefusesOtherJobsAndOtherFiles) {
