@@ -64,6 +64,22 @@ Json measure_book(const Json& in) {
           {"processor_ns_per_cell", 1e9 * used_s / static_cast<double>(answers)}};
 }
 
+/// The end of a bake: every worker has its last cell in hands, and one that is idle asks again and again.
+Json measure_idle(const Json& in) {
+  const auto workers = in.at("workers").get<uint32_t>();
+  LeaseBook book(std::vector<bool>(workers, false), workers);
+  const auto id = [](uint32_t number) {
+    return WorkerId{static_cast<int>(number / 16), static_cast<int>(number % 16)};
+  };
+  for (uint32_t worker = 0; worker < workers; ++worker)
+    if (!book.grant(id(worker), 0)) throw std::runtime_error("a worker got no cell");
+  const int asks = 100000;
+  const double processor_began_s = processor_s();
+  for (int ask = 0; ask < asks; ++ask)
+    if (book.grant(id(workers), 0.1)) throw std::runtime_error("a cell is in two hands too early");
+  return {{"workers", workers}, {"processor_ns_per_ask", 1e9 * (processor_s() - processor_began_s) / asks}};
+}
+
 Json measure_farm(const Json& in, uint32_t workers) {
   FarmModel model;
   const auto file = in.at("cell_times").get<std::string>();
@@ -94,6 +110,8 @@ Json measure(const Json& in) {
   Json out = Json::object();
   if (in.contains("book"))
     for (const Json& book : in["book"]) out["book"].push_back(measure_book(book));
+  if (in.contains("idle"))
+    for (const Json& idle : in["idle"]) out["idle"].push_back(measure_idle(idle));
   if (in.contains("farms"))
     for (const Json& farm : in["farms"])
       for (const auto workers : farm.at("workers").get<std::vector<uint32_t>>())

@@ -11,6 +11,9 @@ out=$("$program" <<<'{"book": [{"cells": 5000, "done": 0.4, "workers": 7}]}')
 expect '"answers": 3000,'
 expect '"processor_ns_per_cell": [0-9]'
 
+out=$("$program" <<<'{"idle": [{"workers": 50}]}')
+expect '"processor_ns_per_ask": [0-9]'
+
 farm '"workers": [4], "cells": 12'
 expect '"efficiency": 1.0,'
 expect '"makespan_s": 3.0,'
