@@ -120,7 +120,7 @@ void serve_guarded(const BakeOptions& options, Transport& transport) {
   try {
     const RankShare share = rank_share(transport, options.workers, options.gpu);
     GuardedShepherd shepherd(transport, {run_paths(options), share.workers, share.threads_per_worker,
-                                         share.cores, options.gpu, options.cell_timeout_s});
+                                         share.cores, share.gpus, options.cell_timeout_s});
     return serve(transport, shepherd);
   } catch (const Error& error) {
     transport.send(0, failure(transport, error.status(), error.what()));
@@ -196,7 +196,7 @@ int bake_as_first(const BakeOptions& options, Transport& transport) {
                          share.cores, share.machine_cores));
   Coordinator coordinator(transport, {run, fingerprint.hash, share.workers, options.rank_timeout_s}, log,
                           progress);
-  GuardedShepherd shepherd(transport, {run, share.workers, share.threads_per_worker, share.cores, options.gpu,
+  GuardedShepherd shepherd(transport, {run, share.workers, share.threads_per_worker, share.cores, share.gpus,
                                        options.cell_timeout_s});
   const auto failure = coordinate(transport, coordinator, shepherd);
   progress.clear();

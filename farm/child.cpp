@@ -12,7 +12,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
-#include <sstream>
 #include <thread>
 
 #include "scene/error.h"
@@ -192,16 +191,6 @@ std::filesystem::path worker_program() {
         ExitStatus::input_output,
         program.string() + ": the worker program is not there; build it or set VEDUTA_WORKER to its path");
   return program;
-}
-
-std::vector<std::string> probe_devices() {
-  std::vector<std::string> lines;
-  Child probe({{worker_program().string(), "--probe"}, {}, {}});
-  std::istringstream text(probe.read_text());
-  if (probe.reap(false); probe.exit_status() != 0) return lines;
-  for (std::string line; std::getline(text, line);)
-    if (!line.empty()) lines.push_back(line);
-  return lines;
 }
 
 }  // namespace veduta

@@ -61,8 +61,4 @@ class Child {
 /// when it is not there.
 std::filesystem::path worker_program();
 
-/// One line per EGL device, from a probe in a child (drivers have been seen to crash in it); empty when the
-/// probe fails.
-std::vector<std::string> probe_devices();
-
 }  // namespace veduta

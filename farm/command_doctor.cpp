@@ -1,77 +1,118 @@
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <iostream>
+#include <map>
 #include <memory>
+#include <thread>
 #include <vector>
 
-#include "farm/child.h"
 #include "farm/commands.h"
+#include "farm/doctor.h"
 #include "farm/machine.h"
+#include "farm/messages.h"
 #include "farm/transport.h"
 #include "scene/error.h"
 
 namespace veduta {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point then) {
-  return std::chrono::duration<double>(Clock::now() - then).count();
+NoteMessage note(const std::string& text) {
+  NoteMessage message;
+  message.text = FixedText<400>(text);
+  return message;
 }
 
-/// Writes as a bake does: records of 3 kB, then whole megabytes with a sync at the end. The file is removed.
-std::string disk_speed(const std::filesystem::path& directory) {
-  constexpr int records = 20, megabytes = 32;
-  const std::filesystem::path file = directory / fmt::format("veduta-doctor.{}", getpid());
-  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-  if (descriptor < 0)
-    throw Error(ExitStatus::input_output,
-                directory.string() + ": cannot be written to; choose another directory");
-  const std::vector<char> record(3000), block(1 << 20);
+Message next_message(Transport& transport, int& from) {
+  for (;;) {
+    if (const auto received = transport.receive()) return from = received->from, received->message;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+}
+
+/// Ranks other than 0. The first of each host reports, a note a finding, after the note that names the mark.
+void report(Transport& transport, const std::filesystem::path& directory) {
+  int from = 0;
+  const Message first = next_message(transport, from);
+  const auto* const mark = std::get_if<NoteMessage>(&first);
+  if (mark && transport.local_rank() == 0) {
+    std::vector<Finding> findings = examine_host(directory);
+    findings.push_back(look_for_mark(mark->text.text()));
+    transport.send(0, note(host_name()));
+    for (const Finding& each : findings)
+      transport.send(0, note((each.good ? "+" : "-") + each.name + "\n" + each.value));
+  }
+  transport.send(0, LeftMessage{});
+  if (mark) next_message(transport, from);  // goodbye
+}
+
+Finding parse_finding(const std::string& text) {
+  const size_t end = std::min(text.find('\n'), text.size() - 1);
+  return {text.substr(1, end - 1), text.substr(end + 1), text[0] == '+'};
+}
+
+/// Rank 0: what the others report.
+std::map<int, HostFindings> gather(Transport& transport) {
+  std::map<int, HostFindings> hosts;
+  for (int left = 1; left < transport.size();) {
+    int from = 0;
+    const Message message = next_message(transport, from);
+    if (std::holds_alternative<LeftMessage>(message)) ++left;
+    const auto* const said = std::get_if<NoteMessage>(&message);
+    if (!said) continue;
+    if (const auto host = hosts.find(from); host != hosts.end())
+      host->second.findings.push_back(parse_finding(said->text.text()));
+    else
+      hosts[from].host = said->text.text();
+  }
+  return hosts;
+}
+
+int examine_all(Transport& transport, const std::filesystem::path& directory) {
+  const DoctorMark mark(directory);
+  for (int rank = 1; rank < transport.size(); ++rank) transport.send(rank, note(mark.file().string()));
+  std::vector<Finding> own = examine_host(directory);
+  std::map<int, HostFindings> hosts = gather(transport);
+  hosts[0] = {host_name(), std::move(own)};
   bool good = true;
-  const auto sync_began = Clock::now();
-  for (int i = 0; i < records && good; ++i)
-    good = write(descriptor, record.data(), record.size()) == static_cast<ssize_t>(record.size()) &&
-           fdatasync(descriptor) == 0;
-  const double sync_ms = 1000 * seconds_since(sync_began) / records;
-  const auto write_began = Clock::now();
-  for (int i = 0; i < megabytes && good; ++i)
-    good = write(descriptor, block.data(), block.size()) == static_cast<ssize_t>(block.size());
-  good = good && fdatasync(descriptor) == 0;
-  const double write_s = seconds_since(write_began);
-  close(descriptor);
-  unlink(file.c_str());
-  if (!good)
-    throw Error(ExitStatus::input_output, directory.string() + ": writing failed; is the disk full?");
-  return fmt::format("{:.0f} MB/s, {:.2f} ms a sync, {} free", megabytes / write_s, sync_ms,
-                     bytes_text(free_bytes(directory)));
+  for (const auto& [rank, host] : hosts) {
+    std::cout << fmt::format("{}{:<12}{}\n", rank == 0 ? "" : "\n", "host", host.host);
+    for (const Finding& each : host.findings) {
+      std::cout << fmt::format("{:<12}{}\n", each.name, each.value);
+      good = good && each.good;
+    }
+  }
+  const std::string differing = differences(hosts);
+  std::cout << differing << std::flush;
+  return static_cast<int>(good && differing.empty() ? ExitStatus::done : ExitStatus::check_failed);
 }
 
 int run_doctor(const std::filesystem::path& directory) {
-  std::cout << "veduta      " VEDUTA_VERSION "\n";
-  std::cout << "MPI         " << mpi_version() << "\n";
-  std::cout << "HDF5        " VEDUTA_HDF5_VERSION "\n";
-  std::cout << "worker      " << worker_program().string() << "\n";
-  const auto devices = probe_devices();
-  for (const auto& device : devices) std::cout << "renderer    " << device << "\n";
-  if (devices.empty())
-    std::cout << "renderer    none: install libegl1 and libgl1-mesa-dri, or a GPU driver with EGL\n";
-  std::cout << "disk        " << std::filesystem::absolute(directory).lexically_normal().string() << ": "
-            << disk_speed(directory) << std::endl;
-  return static_cast<int>(devices.empty() ? ExitStatus::check_failed : ExitStatus::done);
+  const auto transport = make_transport();
+  int status = 0;
+  if (transport->rank() == 0) {
+    try {
+      status = examine_all(*transport, directory);
+    } catch (const Error& error) {
+      std::cerr << "veduta: " << error.what() << std::endl;
+      status = static_cast<int>(error.status());
+    }
+    for (int rank = 1; rank < transport->size(); ++rank) transport->send(rank, GoodbyeMessage{});
+  } else {
+    report(*transport, directory);
+  }
+  transport->leave(status);
+  return status;
 }
 
 }  // namespace
 
 void add_doctor(CLI::App& app, CommandLine& line) {
-  auto* const command =
-      app.add_subcommand("doctor", "What this machine has: versions, renderers, speed of a disk");
+  auto* const command = app.add_subcommand(
+      "doctor", "What this machine has for a bake: versions, renderers, disk; each host's under mpirun");
   auto directory = std::make_shared<std::filesystem::path>(".");
-  command->add_option("DIR", *directory, "The directory whose disk is measured [.]");
+  command->add_option("DIR", *directory, "The directory that a bake would write to [.]");
   command->callback([directory, &line] { line.run = [directory] { return run_doctor(*directory); }; });
 }
 

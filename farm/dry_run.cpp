@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "farm/cell_estimate.h"
+#include "farm/devices.h"
 #include "farm/fingerprint.h"
 #include "farm/progress.h"
 #include "farm/run_directory.h"
@@ -74,7 +75,7 @@ std::string plan_of_run(const BakeOptions& options, const RunPaths& run, const C
   Progress progress(options.verbosity == Verbosity::quiet);
   SampleBake sample;
   {
-    LoneWorker worker(log, share.threads_per_worker, options.gpu);
+    LoneWorker worker(log, share.threads_per_worker, share.gpus.front());
     sample = bake_sample(worker, run, cells,
                          [&](size_t done) { progress.work("baking a sample", done, cells.size()); });
   }
@@ -112,7 +113,9 @@ void print_plan(const BakeOptions& options, const Settings& settings, const RunP
   out += fmt::format("ranks       {}, with {} worker{} each, {} software thread{} a worker\n", ranks,
                      share.workers, share.workers == 1 ? "" : "s", share.threads_per_worker,
                      share.threads_per_worker == 1 ? "" : "s");
-  for (const auto& device : probe_devices()) out += "device      " + device + "\n";
+  for (const Device& device : probe_devices())
+    out +=
+        fmt::format("device      {}{}{}\n", device.text, device.refusal.empty() ? "" : ", ", device.refusal);
   const auto stored = options.fresh ? std::nullopt : read_text_file(run.fingerprint());
   if (stored) require_same_job(run.directory, *stored, fingerprint);
   const auto city = stored ? read_city_counts(run) : std::nullopt;

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "farm/devices.h"
 #include "farm/machine.h"
 #include "farm/run_directory.h"
 #include "scene/error.h"
@@ -62,12 +63,10 @@ void Shepherd::handle(const Message& message) {
 
 void Shepherd::spawn(uint32_t number) {
   Slot& slot = slots_[number];
-  const uint32_t device_turn = static_cast<uint32_t>(transport_.local_rank()) * options_.workers + number;
   ChildCommand command;
-  command.arguments = {worker_program().string(), "--gpu", options_.gpu};
-  // By this variable a worker chooses among the devices of its host; mpirun sets it per rank, we need it per
-  // child.
-  command.environment.emplace_back("OMPI_COMM_WORLD_LOCAL_RANK", std::to_string(device_turn));
+  command.arguments = {worker_program().string(), "--gpu",
+                       gpu_of_worker(options_.gpus, static_cast<uint32_t>(transport_.local_rank()),
+                                     static_cast<uint32_t>(transport_.local_size()), number)};
   command.log = worker_log(options_.run, job_.attempt, transport_.rank(), number);
   if (!std::getenv("LP_NUM_THREADS"))
     command.environment.emplace_back("LP_NUM_THREADS", std::to_string(options_.threads_per_worker));

@@ -20,10 +20,10 @@ namespace veduta {
 struct ShepherdOptions {
   RunPaths run;
   uint32_t workers = 1;
-  uint32_t threads_per_worker = 1;  ///< of a software renderer, and of a part of the preparation
-  uint32_t cores = 1;               ///< for a part that is alone in its stage
-  std::string gpu = "auto";
-  double cell_timeout_s = 300;  ///< a child silent for longer over one cell is killed
+  uint32_t threads_per_worker = 1;        ///< of a software renderer, and of a part of the preparation
+  uint32_t cores = 1;                     ///< for a part that is alone in its stage
+  std::vector<std::string> gpus{"auto"};  ///< gpu_of_worker() says which is whose
+  double cell_timeout_s = 300;            ///< a child silent for longer over one cell is killed
 };
 
 /// Speaks to the coordinator only in messages, so that it does not matter on which rank it runs.

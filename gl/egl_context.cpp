@@ -81,12 +81,16 @@ std::vector<std::string> list_devices() {
     if (has_word(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_EXT_device_drm"))
       if (const char* node = eglQueryDeviceStringEXT(device, EGL_DRM_DEVICE_FILE_EXT))
         line += std::string(" ") + node;
+    EGLAttrib cuda = 0;
+    if (has_word(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_NV_device_cuda") &&
+        eglQueryDeviceAttribEXT(device, EGL_CUDA_DEVICE_NV, &cuda))
+      line += fmt::format(" cuda {}", cuda);
     lines.push_back(line);
   }
   return lines;
 }
 
-EglContext::EglContext(const std::string& gpu, int local_rank) {
+EglContext::EglContext(const std::string& gpu) {
   const GpuChoice choice = GpuChoice::parse(gpu);
   if (!egl_present())
     throw Error(ExitStatus::usage, fmt::format("gpu: EGL or OpenGL is missing here; {}", what_to_install));
@@ -102,9 +106,6 @@ EglContext::EglContext(const std::string& gpu, int local_rank) {
     if (choice.mode == GpuChoice::Mode::automatic)
       std::copy_if(all.begin(), all.end(), std::back_inserter(candidates),
                    [](auto d) { return !is_software(d); });
-    if (!candidates.empty() && local_rank > 0)
-      std::rotate(candidates.begin(), candidates.begin() + local_rank % static_cast<int>(candidates.size()),
-                  candidates.end());
     std::copy_if(all.begin(), all.end(), std::back_inserter(candidates), is_software);
   }
   for (EGLDeviceEXT device : candidates)

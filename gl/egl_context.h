@@ -18,17 +18,17 @@ struct GpuChoice {
   static GpuChoice parse(const std::string& text);
 };
 
-/// One line per EGL device of this machine, by number: "0: hardware /dev/dri/card0", "1: software". Empty
-/// without EGL.
+/// One line per EGL device of this machine, by number: "0: hardware /dev/dri/card0 cuda 3" (CUDA's number,
+/// where the driver tells it), "1: software". Opens none of them. Empty without EGL.
 std::vector<std::string> list_devices();
 
 /// An OpenGL 4.3+ core context, current on the thread that made it, until it is destroyed there.
 class EglContext {
  public:
-  /// `gpu` as GpuChoice::parse; with "auto", the local rank spreads the processes of a host over its hardware
-  /// devices. \throw Error(usage) when there is no such device, or no usable EGL or OpenGL 4.3, saying what
-  /// to install.
-  explicit EglContext(const std::string& gpu, int local_rank = 0);
+  /// `gpu` as GpuChoice::parse; "auto" is the first hardware device that works (the farm names a device to
+  /// each of its workers: farm/devices.h). \throw Error(usage) when there is no such device, or no usable EGL
+  /// or OpenGL 4.3, saying what to install.
+  explicit EglContext(const std::string& gpu);
   ~EglContext();
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;

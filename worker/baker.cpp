@@ -3,20 +3,11 @@
 #include <chrono>
 
 namespace veduta {
-namespace {
-
-int local_rank() {
-  const char* rank = std::getenv("OMPI_COMM_WORLD_LOCAL_RANK");
-  if (rank == nullptr) rank = std::getenv("SLURM_LOCALID");
-  return rank == nullptr ? 0 : std::atoi(rank);
-}
-
-}  // namespace
 
 Baker::Baker(City city, const ClusteredOccluders& occluders, const Settings& settings, const std::string& gpu)
     : city_(std::move(city)),
       settings_(settings),
-      context_(gpu, local_rank()),
+      context_(gpu),
       counts_(city_.scene, city_.slices, city_.triangle_slices),
       slice_boxes_(slice_boxes(city_.scene, city_.slices, city_.triangle_slices)),
       method_(make_occlusion_method(settings.occlusion.method, {city_, slice_boxes_, occluders, settings_})) {

@@ -30,10 +30,10 @@ int main(int argc, char** argv) {
   CLI::App app{
       "Veduta's worker: bakes cells that arrive as frames on standard input. Started by `veduta bake`."};
   std::string gpu = "auto";
-  bool probe = false;
+  bool list = false, probe = false;
   app.add_option("--gpu", gpu, "EGL device: auto, software or a number")->capture_default_str();
-  app.add_flag("--probe", probe,
-               "Print one line per EGL device and the renderer that --gpu chooses, then leave");
+  app.add_flag("--list", list, "Print one line per EGL device, opening none, then leave");
+  app.add_flag("--probe", probe, "Print the renderer that --gpu chooses, then leave");
   std::filesystem::path config, picture;
   veduta::SectionRequest section;
   auto* const config_option =
@@ -54,6 +54,10 @@ int main(int argc, char** argv) {
       veduta::write_section(picture, veduta::city_section(settings, section));
       return 0;
     }
+    if (list) {
+      for (const std::string& device : veduta::list_devices()) std::printf("%s\n", device.c_str());
+      return 0;
+    }
     if (!probe) {
       // Frames go to a private copy of standard output: whatever a driver prints there must not get between
       // them.
@@ -61,9 +65,9 @@ int main(int argc, char** argv) {
       dup2(STDERR_FILENO, STDOUT_FILENO);
       return veduta::run_worker(STDIN_FILENO, frames, gpu);
     }
-    for (const std::string& device : veduta::list_devices()) std::printf("%s\n", device.c_str());
     const veduta::EglContext context(gpu);
-    std::printf("%s: %s, OpenGL %s\n", gpu.c_str(), context.renderer().c_str(), context.version().c_str());
+    std::printf("%s, OpenGL %s%s\n", context.renderer().c_str(), context.version().c_str(),
+                context.software() ? " (software)" : "");
     return 0;
   } catch (const veduta::Error& error) {
     std::fprintf(stderr, "veduta-worker: %s\n", error.what());

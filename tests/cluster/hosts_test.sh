@@ -79,6 +79,15 @@ lose "${hosts[0]}" lost_coordinator
 launch_host=${hosts[0]}
 printf '%s slots=1\n' "${hosts[@]}" >"$hostfile"
 
+# --- veduta doctor
+doctor() { # DIRECTORY
+  on_host "${hosts[0]}" mpirun --mca plm_rsh_agent "$work/agent" --hostfile "$hostfile" --bind-to none -n 3 -x VEDUTA_WORKER \
+    "$veduta" doctor "$1" >doctor.log 2>&1
+}
+doctor . || { cat doctor.log >&2; fail "the doctor found fault"; }
+[[ $separate -eq 0 || $(grep -cE '^host  +h[0-2]$' doctor.log) -eq 3 && $(grep -c '^shared  *yes, locks too$' doctor.log) -eq 2 ]] ||
+  { cat doctor.log >&2; fail "the doctor did not see three hosts with one directory"; }
+
 # --- what one host lacks
 [[ $separate -eq 1 ]] || { say "hosts with file systems of their own: skipped, namespaces are not permitted here"; exit 0; }
 one_line() { # LOG STATUS-GOT STATUS-WANTED TEXT: mpirun adds a banner of its own, between lines of dashes
@@ -98,4 +107,7 @@ on_host h1 mount -t tmpfs tmpfs "$work/shared/private"
 status=0
 bake private/run 3 >private.log 2>&1 || status=$?
 one_line private.log "$status" 74 "rank 1 on h1: $work/shared/private/run: the run directory of rank 0 is not here"
+status=0
+doctor private || status=$?
+[[ $status -eq 1 ]] && grep -q '^shared  *no: ' doctor.log || { cat doctor.log >&2; fail "the doctor did not see that a directory is not shared"; }
 [[ -z $(on_host h1 ls private) ]] || fail "h1 wrote into a directory that nobody else sees"

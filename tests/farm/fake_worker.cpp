@@ -8,6 +8,8 @@
 //   FAKE_LEAVE_ONCE  a file: the worker that can create it leaves after its lease
 //   FAKE_STRAY_ONCE  a file: the worker that can create it answers for a cell that there is not
 //   FAKE_FAIL        a status: `prepare` answers `failed` with it
+//   FAKE_DEVICES     what --list prints; the renderer is then named after --gpu
+//   FAKE_DEVICE_CRASHES  the device whose --probe ends in SIGSEGV
 //   FAKE_PREPARE_MS  time that a part of the preparation takes [0]
 //   FAKE_PREPARE_DIES  a part ("flood-3") that ends in SIGKILL, each time
 //   FAKE_PREPARE_DIES_ONCE  a directory: each part, done for the first time, ends in SIGKILL before the
@@ -90,7 +92,8 @@ CellRecord bake(uint32_t cell) {
 
 class FakeWorker {
  public:
-  FakeWorker() {
+  explicit FakeWorker(const std::vector<std::string>& arguments) {
+    if (std::getenv("FAKE_DEVICES")) renderer_ += " on " + arguments.at(1);
     std::istringstream list(environment("FAKE_CRASH_CELLS", ""));
     for (std::string cell; std::getline(list, cell, ',');)
       crash_cells_.insert(static_cast<uint32_t>(std::stoul(cell)));
@@ -105,7 +108,7 @@ class FakeWorker {
         if (const int status = prepare(value); status != 0) return status;
       } else if (frame->verb == Verb::open) {
         const City city = read_city(RunPaths{value.at("directory").get<std::string>()}.city());
-        answer(Verb::opened, {{"renderer", "fake"}, {"cells", city.cells.size()}});
+        answer(Verb::opened, {{"renderer", renderer_}, {"cells", city.cells.size()}});
       } else if (frame->verb == Verb::bake) {
         for (const uint32_t cell : value.at("cells").get<std::vector<uint32_t>>()) bake_cell(cell);
         answer(Verb::lease_done, json::object());
@@ -162,6 +165,7 @@ class FakeWorker {
     write_frame(STDOUT_FILENO, encode_frame(Verb::cell_baked, record.data(), record.size()));
   }
 
+  std::string renderer_ = "fake";
   std::set<uint32_t> crash_cells_;
   double crash_rate_ = std::stod(environment("FAKE_CRASH_RATE", "0"));
   uint32_t cells_ = static_cast<uint32_t>(std::stoul(environment("FAKE_CELLS", "200")));
@@ -175,12 +179,18 @@ class FakeWorker {
 }  // namespace veduta
 
 int main(int argc, char** argv) {
-  if (argc > 1 && std::string(argv[1]) == "--probe") {
-    std::cout << "0: software (fake)\n";
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (!arguments.empty() && arguments[0] == "--list") {
+    std::cout << veduta::environment("FAKE_DEVICES", "0: software (fake)") << "\n";
+    return 0;
+  }
+  if (!arguments.empty() && arguments[0] == "--probe") {
+    if (arguments.at(2) == veduta::environment("FAKE_DEVICE_CRASHES", "")) raise(SIGSEGV);
+    std::cout << "a fake renderer\n";
     return 0;
   }
   try {
-    return veduta::FakeWorker().run();
+    return veduta::FakeWorker(arguments).run();
   } catch (const veduta::Error& error) {
     const auto status = static_cast<int>(error.status());
     veduta::answer(veduta::Verb::failed, {{"status", status}, {"message", error.what()}});

@@ -50,7 +50,7 @@ TEST(EglContext, ASecondContextWorksAfterTheFirstIsGone) {
   for (int round = 0; round < 2; ++round) {
     std::optional<EglContext> context;
     try {
-      context.emplace("auto", round);
+      context.emplace("auto");
     } catch (const Error& error) {
       GTEST_SKIP() << error.what();
     }
