@@ -12,7 +12,7 @@
 namespace veduta {
 
 /// Raise it with every change that may change a row: old run directories are then refused rather than mixed.
-inline constexpr int algorithm_version = 5;
+inline constexpr int algorithm_version = 6;
 
 /// 32 hex digits over `parts`: every key with its value, or with the hash of a file's content. Model paths
 /// are left out, so that a run directory can be continued where the models lie elsewhere.

@@ -10,8 +10,10 @@
 #include <cstring>
 #include <limits>
 #include <mutex>
+#include <optional>
 
 #include "scene/error.h"
+#include "scene/ray_tiles.h"
 
 namespace veduta {
 namespace {
@@ -104,10 +106,14 @@ Hierarchy build_bounds(RTCDevice device, const Scene& scene) {
 }  // namespace
 
 struct RayScene::Tracer {
-  Tracer(const Scene& city, RaySpeed speed) : scene(city) {
+  Tracer(const Scene& city, RaySpeed speed, uint64_t tile_triangles) : scene(city) {
     check(device.get(), "starting");
-    triangles = build_triangles(device.get(), scene, speed);
+    if (speed == RaySpeed::on_demand)
+      tiles.emplace(device.get(), scene, tile_triangles);
+    else
+      triangles = build_triangles(device.get(), scene, speed);
   }
+  RTCScene hierarchy() const { return tiles ? tiles->hierarchy() : triangles.get(); }
   RTCScene boxes() {
     std::call_once(bounds_made, [this] { bounds = build_bounds(device.get(), scene); });
     return bounds.get();
@@ -115,7 +121,7 @@ struct RayScene::Tracer {
 
   // ray_at(i) is ray number i of `count`.
   template <typename RayAt>
-  void trace(size_t count, const RayAt& ray_at, std::span<Hit> hits, RayOrder order) const {
+  void trace(size_t count, const RayAt& ray_at, std::span<Hit> hits, RayOrder order) {
     constexpr size_t width = 16;
     alignas(64) RTCRayHit16 packet;
     alignas(64) int valid[width];
@@ -135,7 +141,8 @@ struct RayScene::Tracer {
         packet.ray.time[i] = 0, packet.ray.mask[i] = ~0u, packet.ray.id[i] = 0, packet.ray.flags[i] = 0;
         packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID, packet.hit.primID[i] = RTC_INVALID_GEOMETRY_ID;
       }
-      rtcIntersect16(valid, triangles.get(), &context, &packet);
+      rtcIntersect16(valid, hierarchy(), &context, &packet);
+      if (tiles) tiles->rethrow();
       for (size_t i = 0; i < in_packet; ++i) {
         const bool met = packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
         hits[begin + i] = {met ? packet.hit.primID[i] : Hit::none, packet.ray.tfar[i]};
@@ -149,15 +156,16 @@ struct RayScene::Tracer {
   // TBB); the other device lifts that.
   Device device{rtcNewDevice("threads=1")}, many_threads{rtcNewDevice(nullptr)};
   Hierarchy triangles, bounds;
+  std::optional<RayTiles> tiles;  // in place of `triangles`
   std::once_flag bounds_made;
 };
 
-RayScene::RayScene(const Scene& scene, RaySpeed speed) {
+RayScene::RayScene(const Scene& scene, RaySpeed speed, uint64_t tile_triangles) {
   if (scene.triangles.empty() || scene.triangles.size() >= Hit::none)
     throw Error(ExitStatus::bad_input,
                 fmt::format("rays: the scene has {} triangles; from 1 to 2^32 - 2 can be traced",
                             scene.triangles.size()));
-  tracer_ = std::make_unique<Tracer>(scene, speed);
+  tracer_ = std::make_unique<Tracer>(scene, speed, tile_triangles);
 }
 
 RayScene::~RayScene() = default;
@@ -185,8 +193,17 @@ bool RayScene::blocked(const glm::vec3& from, const glm::vec3& to) const {
   ray.tfar = 1.001f, ray.mask = ~0u;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  rtcOccluded1(tracer_->triangles.get(), &context, &ray);
+  rtcOccluded1(tracer_->hierarchy(), &context, &ray);
+  if (tracer_->tiles) tracer_->tiles->rethrow();
   return ray.tfar < 0;
+}
+
+void RayScene::keep_within(uint64_t triangles) {
+  if (tracer_->tiles) tracer_->tiles->keep_within(triangles);
+}
+
+uint64_t RayScene::triangles_held() const {
+  return tracer_->tiles ? tracer_->tiles->triangles() : tracer_->scene.triangles.size();
 }
 
 std::vector<uint32_t> RayScene::triangles_near(const glm::vec3& eye, const glm::vec3& direction,

@@ -28,16 +28,18 @@ struct Ray {
 enum class RayOrder { ordered, scattered };
 
 /// What the hierarchy is built for: half of the memory (40 bytes a triangle), or a tenth to a quarter more
-/// speed. Hits are the same but for ties.
-enum class RaySpeed { compact, fast };
+/// speed; or `on_demand`, as compact but in tiles, each built when a ray first reaches its bounds: for who
+/// looks at a part of a large city. Hits are the same but for ties.
+enum class RaySpeed { compact, fast, on_demand };
 
 /// The triangles of a scene without instances in a bounding-volume hierarchy (Embree, robust mode, both sides
 /// of every triangle are solid). The same scene gives the same hits, ties included, on one machine. Every
-/// member may be called from several threads at once. The scene must outlive it.
+/// member may be called from several threads at once, unless it is on demand. The scene must outlive it.
 class RayScene {
  public:
   /// \throw Error(bad_input) when the scene has no triangle or 2^32 of them; Error(defect) when Embree fails.
-  explicit RayScene(const Scene& scene, RaySpeed speed = RaySpeed::compact);
+  /// \param tile_triangles of a tile, on demand
+  explicit RayScene(const Scene& scene, RaySpeed speed = RaySpeed::compact, uint64_t tile_triangles = 8192);
   ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
@@ -53,6 +55,12 @@ class RayScene {
   /// Does a triangle meet the segment? Its far end is stretched by 0.1 %, so a point on a surface counts as
   /// behind it.
   bool blocked(const glm::vec3& from, const glm::vec3& to) const;
+
+  /// On demand: drops tiles that no ray has reached for the longest time, until those left have at most so
+  /// many triangles, some 65 bytes each.
+  void keep_within(uint64_t triangles);
+  /// In the hierarchy at the time.
+  uint64_t triangles_held() const;
 
   /// Every triangle that the ray may meet up to a distance, and more (those whose bounds it meets),
   /// ascending. Nothing that it meets is left out: what exact arithmetic has to look at. Direction of unit

@@ -20,6 +20,9 @@ constexpr size_t eyes_per_cell = 32;
 constexpr size_t rays_around = 512;      // from each eye, looking all round
 constexpr size_t least_batch = 64;       // rays aimed at once: packets are to be full
 constexpr uint32_t triangle_block = 64;  // triangles for each entry of the table of objects
+// Half a gigabyte of the tiles that rays of the last cells reached. Too few would be built again for each
+// cell.
+constexpr uint64_t most_triangles = 1u << 23;
 constexpr uint64_t look_seed = 1, aim_seed = 2;
 
 // An azimuth in each of `count` sectors; elevations crowd around the horizon, where a city is. The cube: half
@@ -158,7 +161,8 @@ void SeenSampler::look(uint32_t cell, Seen& seen) const {
     seen.lowest[i] = static_cast<uint8_t>(tracer.slices.slices[i].heights);
   seen.objects = 0, seen.rays = 0;
   if (city.scene.triangles.empty()) return;
-  if (!tracer.rays) tracer.rays = std::make_unique<RayScene>(city.scene);
+  if (!tracer.rays) tracer.rays = std::make_unique<RayScene>(city.scene, RaySpeed::on_demand);
+  tracer.rays->keep_within(most_triangles);
   Random random(look_seed, cell);
   choose_eyes(city.navigation.free, *tracer.rays, city.cells[cell], eyes_per_cell, Random(random.bits()),
               seen.eyes);
