@@ -206,7 +206,8 @@ int bake_as_first(const BakeOptions& options, Transport& transport) {
               transport.size(),
               share.workers,
               began,
-              command_to_continue(options)};
+              command_to_continue(options),
+              options.verbosity == Verbosity::quiet};
   if (failure) {
     log.info("failed",
              nlohmann::json{{"status", static_cast<int>(failure->status())}, {"message", failure->what()}});

@@ -20,9 +20,9 @@ struct Options {
   bool partial = false, json = false;
 };
 
-int run_merge(const Options& options) {
+int run_merge(const Options& options, bool quiet) {
   const auto output = options.output.empty() ? options.run.result() : options.output;
-  Progress progress(false);
+  Progress progress(quiet);
   const MergeResult result =
       merge_run(options.run, output, options.partial, [&](const char* what, uint64_t done, uint64_t total) {
         progress.work(std::string("merging: ") + what, done, total);
@@ -62,7 +62,9 @@ void add_merge(CLI::App& app, CommandLine& line) {
   command->add_option("-o,--output", options->output, "The file [DIR/city.pvs.h5]");
   command->add_flag("--partial", options->partial, "Record cells that are not baked yet all visible");
   command->add_flag("--json", options->json, "Print JSON");
-  command->callback([options, &line] { line.run = [options] { return run_merge(*options); }; });
+  command->callback([options, &line] {
+    line.run = [options, &line] { return run_merge(*options, line.verbosity == Verbosity::quiet); };
+  });
 }
 
 }  // namespace veduta

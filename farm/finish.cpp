@@ -9,6 +9,7 @@
 
 #include "farm/child.h"
 #include "farm/machine.h"
+#include "farm/progress.h"
 #include "farm/signals.h"
 #include "scene/error.h"
 
@@ -27,11 +28,17 @@ json merge_in_child(const BakeEnd& end) {
   // By this name it is the same program also when another version was installed meanwhile.
   Child child({{"/proc/self/exe", "merge", end.run.directory.string(), "--json"}, log, {}});
   pollfd polled{child.output(), POLLIN, 0};
-  while (poll(&polled, 1, 100) <= 0)
+  const auto began = std::chrono::steady_clock::now();
+  std::string said;
+  while (poll(&polled, 1, 100) <= 0) {
     if (stop_requested())
       throw Error(ExitStatus::stopped_early,
                   fmt::format("{}: every cell is done, stopped before the merge; continue with: {}",
                               end.run.directory.string(), end.command_line));
+    // Its progress, which it writes for nobody in particular, when it takes so long that somebody wonders.
+    if (end.quiet || seconds_since(began) < 3) continue;
+    if (const std::string line = last_line(log); line != said && !line.empty()) say(said = line);
+  }
   const std::string answer = child.read_text();
   const std::string ending = child.reap(false);
   if (child.exit_status() == 0) return json::parse(answer);

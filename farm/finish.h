@@ -16,6 +16,7 @@ struct BakeEnd {
   uint32_t workers_per_rank = 1;
   std::chrono::steady_clock::time_point began;
   std::string command_line;
+  bool quiet = false;  ///< no progress
 };
 
 /// Merges (in a program of its own, which can be stopped), writes report.json, prints the summary.
