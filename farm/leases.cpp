@@ -94,14 +94,23 @@ std::optional<LeaseBook::Range> LeaseBook::take_fresh(uint32_t size) {
 }
 
 std::optional<LeaseBook::Range> LeaseBook::steal(double now_s, uint64_t& victim) {
-  while (!victims_.empty()) {
-    const Victim best = *victims_.begin();
+  for (auto each = victims_.begin(); each != victims_.end();) {
+    const Victim best = *each;
     const Granted& lease = granted_.at(best.id);
     refresh(best.id);
-    if (lease.open_end - lease.open_begin != best.open) continue;  // by a late answer
+    each = victims_.find(best);
+    if (each == victims_.end()) {  // by a late answer
+      each = victims_.begin();
+      continue;
+    }
     // The last cell is worth a second worker only when it takes much longer than cells do. Who comes after
     // it in the order has answered later.
     if (best.open == 1 && now_s - lease.last_sign_s < 0.5 + 3 * cell_s_) return std::nullopt;
+    // One that has killed before is rather at fault than slow, and would kill the second worker as well.
+    if (best.open == 1 && kills_alone_.contains(lease.open_begin)) {
+      ++each;
+      continue;
+    }
     victim = best.id;
     return Range{lease.open_begin + best.open / 2, lease.open_end, lease.range.kills};
   }
@@ -183,9 +192,14 @@ void LeaseBook::lease_done(uint64_t lease) {
 std::optional<uint32_t> LeaseBook::lease_lost(uint64_t lease, bool counts) {
   const auto found = granted_.find(lease);
   if (found == granted_.end()) return std::nullopt;
-  const Granted lost = let_go(found);
-  const auto [begin, end, kills_before] = lost.range;
-  const int kills = !counts ? kills_before : lost.progressed ? 1 : kills_before + 1;
+  const auto [begin, end, kills_before] = found->second.range;
+  const bool progressed = found->second.progressed, alone = end - begin == 1;
+  // A cell's own kills are counted with the cell: two workers may have it in hands when one dies over it.
+  const int kills = !counts      ? kills_before
+                    : alone      ? ++kills_alone_[begin]
+                    : progressed ? 1
+                                 : kills_before + 1;
+  let_go(found);
   if (kills < kills_allowed) {
     give_back({begin, end, kills});
     return std::nullopt;

@@ -112,6 +112,7 @@ class LeaseBook {
   Leases granted_;
   std::map<WorkerId, uint64_t> lease_of_;
   std::set<Victim> victims_;
+  std::unordered_map<uint32_t, int> kills_alone_;  ///< of cells that killed a worker that had nothing else
   uint32_t done_count_ = 0, workers_ = 1;
   uint64_t next_id_ = 1;
   double cell_s_ = 0;  ///< smoothed time from one answer of a lease to its next

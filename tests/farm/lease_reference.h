@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <list>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -43,7 +44,8 @@ class LeaseReference {
     const auto lease = remove(id);
     if (!lease) return std::nullopt;
     Run run = lease->run;
-    if (counts) run.kills = lease->progressed ? 1 : run.kills + 1;
+    const bool alone = run.end - run.begin == 1;
+    if (counts) run.kills = alone ? ++kills_alone_[run.begin] : lease->progressed ? 1 : run.kills + 1;
     if (run.kills < LeaseBook::kills_allowed) {
       give_back(run);
     } else if (run.end - run.begin > 1) {
@@ -138,6 +140,7 @@ class LeaseReference {
       while (begin > lease.run.begin && open(begin - 1)) --begin;
       const uint32_t left = end - begin;
       if (left == 0 || (left == 1 && now_s - lease.last_sign_s < 0.5 + 3 * cell_s_)) continue;
+      if (left == 1 && kills_alone_.contains(begin)) continue;
       if (left > most || (left == most && lease.last_sign_s < oldest_s)) {
         most = left, oldest_s = lease.last_sign_s;
         best = Run{begin + left / 2, end, lease.run.kills};
@@ -150,6 +153,7 @@ class LeaseReference {
   uint32_t workers_;
   std::list<Run> returned_;
   std::list<Granted> granted_;  ///< in the order of their ids
+  std::map<uint32_t, int> kills_alone_;
   uint64_t next_id_ = 1;
   double cell_s_ = 0;
 };

@@ -86,6 +86,20 @@ TEST(Leases, PoisonCellIsCondemnedAfterThreeDeathsAloneAndNothingElseIsLost) {
   EXPECT_LE(deaths, 6u);
 }
 
+// The last cell: its worker is silent, so another one takes it too, and both are killed in the end.
+TEST(Leases, DeathsOfTwoWorkersOverOneCellAreBothCounted) {
+  LeaseBook book(std::vector<bool>(1, false), 2);
+  const auto one = book.grant(first, 0), two = book.grant(second, 10);
+  ASSERT_TRUE(one && two);
+  EXPECT_FALSE(book.lease_lost(one->id, true));
+  EXPECT_FALSE(book.grant(first, 1000)) << "it is in hands, and has killed";
+  EXPECT_FALSE(book.lease_lost(two->id, true));
+  const auto three = book.grant(first, 1000);
+  ASSERT_TRUE(three);
+  EXPECT_FALSE(book.grant(second, 2000)) << "nobody else goes the same way";
+  EXPECT_EQ(book.lease_lost(three->id, true), 0u);
+}
+
 TEST(Leases, DeathsThatAreNotTheCellsFaultDoNotCount) {
   LeaseBook book(std::vector<bool>(1, false), 1);
   for (int i = 0; i < 10; ++i) EXPECT_FALSE(book.lease_lost(book.grant(first, 0)->id, false));
