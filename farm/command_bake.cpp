@@ -28,7 +28,7 @@ void add_bake(CLI::App& app, CommandLine& line) {
   command
       ->add_option("--rank-timeout", options->rank_timeout_s,
                    "Seconds after which others go on with what a silent rank had in hands [60]")
-      ->check(CLI::Range(5.0, 1e6));
+      ->check(CLI::Range(3.0, 1e6));
   command->add_flag("--fresh", options->fresh, "Start over: remove what an earlier bake left");
   command->add_flag("--dry-run", options->dry_run, "Print what would be done");
   command->add_flag("--no-merge", *no_merge, "Leave the shards; veduta merge makes the file");

@@ -69,7 +69,6 @@ class Coordinator {
   void on_cell(const CellMessage& message);
   void on_lost(WorkerId worker, const LostMessage& message);
   void on_silent(int rank);
-  std::string told_by(int rank) const;
   void record_all_visible(uint32_t cell, const std::string& why);
   void hand_out();
   void broadcast(const Message& message);

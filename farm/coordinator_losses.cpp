@@ -32,7 +32,7 @@ void Coordinator::on_lost(WorkerId worker, const LostMessage& message) {
                   condemned    ? fmt::format("the preparation ({})", *condemned)
                   : preparing_ ? "the preparation"
                                : "opening the city",
-                  message.reason.text(), told_by(worker.rank),
+                  message.reason.text(), transport_.size() > 1 ? ", on " + watch_.name(worker.rank) : "",
                   worker_log(options_.run, tally_.attempt, worker.rank, static_cast<uint32_t>(worker.slot))
                       .string()));
 }
@@ -51,11 +51,6 @@ void Coordinator::on_silent(int rank) {
                     options_.run.directory.string(), what, *part));
   for (uint32_t slot = 0; book_ && slot < watch_.workers(rank); ++slot)
     book_->take_back({rank, static_cast<int>(slot)});
-}
-
-/// Where an error happened, when there is more than one place.
-std::string Coordinator::told_by(int rank) const {
-  return transport_.size() > 1 ? ", on " + watch_.name(rank) : "";
 }
 
 /// Safe, never lost: a cell that cannot be baked sees everything.

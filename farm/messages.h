@@ -113,7 +113,7 @@ struct NoteMessage {  ///< a line for the log
 struct LeftMessage {  ///< children gone, shards synced and closed
   static constexpr uint32_t verb = 25;
 };
-struct HeartbeatMessage {  ///< every two seconds: the shepherd is there, whatever its children do
+struct HeartbeatMessage {  ///< every second: the shepherd is there, whatever its children do
   static constexpr uint32_t verb = 26;
 };
 

@@ -20,7 +20,7 @@ using nlohmann::json;
 constexpr int deaths_allowed_before_open = 3;
 // mpirun sends SIGKILL two seconds after SIGTERM: what is not finished by then is lost anyway.
 constexpr auto stop_patience = std::chrono::milliseconds(1200);
-constexpr auto sync_interval = std::chrono::seconds(1), heartbeat_interval = std::chrono::seconds(2);
+constexpr auto sync_interval = std::chrono::seconds(1), heartbeat_interval = std::chrono::seconds(1);
 constexpr uint64_t sync_bytes = 16u << 20;
 constexpr double prepare_timeout_s = 3600, open_timeout_s = 600;
 
