@@ -47,6 +47,7 @@ TEST_F(Bake, HungWorkerIsReplaced) {
   EXPECT_EQ(digest(), expected);
 }
 
+// R13: the lock of one that was killed is nobody's.
 TEST_F(Bake, KilledCoordinatorContinuesAndLeavesNoOrphan) {
   const std::string expected = reference();
   for (int kills = 0; kills < 3; ++kills) {
@@ -69,6 +70,7 @@ TEST_F(Bake, KilledCoordinatorContinuesAndLeavesNoOrphan) {
   EXPECT_EQ(digest(), expected);
 }
 
+// R12.
 TEST_F(Bake, KilledRankOrMpirunContinues) {
   if (!has_mpirun()) GTEST_SKIP() << "no mpirun";
   const std::string expected = reference();
@@ -96,6 +98,7 @@ TEST_F(Bake, KilledRankOrMpirunContinues) {
   }
 }
 
+// R4; see also bake_faults_test.
 TEST_F(Bake, PoisonCellIsRecordedAllVisible) {
   ASSERT_EQ(run(bake(), {{"FAKE_CRASH_CELLS", "57"}}), 3) << output;
   EXPECT_NE(output.find("cell 57 ended its worker three times"), std::string::npos) << output;
@@ -127,6 +130,21 @@ TEST_F(Bake, SignalsStopItResumably) {
       << output;
 }
 
+TEST_F(Bake, SecondInterruptStopsAtOnce) {
+  const auto process = start(bake(), {{"FAKE_CELL_MS", "60000"}});
+  ASSERT_TRUE(within(20, [&] {
+    return slurp(directory / "run" / "log.jsonl").find("\"event\":\"lease\"") != std::string::npos;
+  }));
+  const auto workers = descendants(process->pid(), "fake_worker");
+  kill(process->pid(), SIGINT);
+  std::this_thread::sleep_for(std::chrono::milliseconds(400));
+  kill(process->pid(), SIGINT);
+  EXPECT_EQ(process->wait(), 75) << process->output();
+  EXPECT_NE(process->output().find("veduta: stopped at once; continue with: veduta bake "), std::string::npos)
+      << process->output();
+  EXPECT_TRUE(within(5, [&] { return all_gone(workers); }));
+}
+
 TEST_F(Bake, SignalsToWorkersAreTheShepherdsBusiness) {
   const auto process = start(bake(), slow);
   ASSERT_TRUE(in_the_middle());
@@ -142,6 +160,25 @@ TEST_F(Bake, SignalledMpirunStopsResumably) {
   ASSERT_TRUE(in_the_middle());
   kill(process->pid(), SIGUSR1);
   EXPECT_EQ(process->wait(), 75) << process->output();
+  EXPECT_NE(process->output().find("continue with: mpirun -n 2 veduta bake "), std::string::npos)
+      << process->output();
+}
+
+// mpirun answers Ctrl-C with SIGTERM for the ranks and SIGKILL two seconds later, and with a status of its
+// own.
+TEST_F(Bake, InterruptedMpirunSaysHowToContinue) {
+  if (!has_mpirun()) GTEST_SKIP() << "no mpirun";
+  const std::string expected = reference();
+  const auto process = start(mpirun(2, bake("", "run", 1)), {{"FAKE_CELL_MS", "50"}});
+  ASSERT_TRUE(in_the_middle());
+  const auto family = descendants(process->pid(), "");
+  kill(process->pid(), SIGINT);
+  EXPECT_NE(process->wait(), 0) << process->output();
+  EXPECT_NE(process->output().find("continue with: mpirun -n 2 veduta bake "), std::string::npos)
+      << process->output();
+  EXPECT_TRUE(within(10, [&] { return all_gone(family); }));
+  ASSERT_EQ(run(bake()), 0) << output;
+  EXPECT_EQ(digest(), expected);
 }
 
 }  // namespace

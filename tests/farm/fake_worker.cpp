@@ -4,10 +4,19 @@
 //   FAKE_CELL_MS     time that a cell takes [1]
 //   FAKE_CRASH_CELLS cells ("17,40") whose bake ends in SIGKILL, each time
 //   FAKE_CRASH_RATE  probability (0..1) that a cell ends in SIGSEGV
+//   FAKE_BEGUN       a file: every cell that is begun is appended to it, as u32
+//   FAKE_GATE        a file with a number: no cell is begun while FAKE_BEGUN has that many
+//   FAKE_FAULT_RATE  probability that a cell's first or second bake ends in SIGKILL or SIGSEGV or hangs: the
+//   same ones each time
+//   FAKE_FAULTS      a directory that remembers how often a cell was begun
+//   FAKE_HANG_CELLS  cells ("17,40") whose bake hangs, each time
+//   FAKE_NO_MEMORY   a file: the worker that can create it runs out of memory at its tenth cell; "always":
+//   each does
 //   FAKE_HANG_ONCE   a file: the worker that can create it hangs at its tenth cell
 //   FAKE_LEAVE_ONCE  a file: the worker that can create it leaves after its lease
 //   FAKE_STRAY_ONCE  a file: the worker that can create it answers for a cell that there is not
 //   FAKE_FAIL        a status: `prepare` answers `failed` with it
+//   FAKE_FAIL_AGAIN  1: and that another try is worth it
 //   FAKE_DEVICES     what --list prints; the renderer is then named after --gpu
 //   FAKE_DEVICE_CRASHES  the device whose --probe ends in SIGSEGV
 //   FAKE_PREPARE_MS  time that a part of the preparation takes [0]
@@ -21,6 +30,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -81,6 +91,32 @@ City tiny_city(uint32_t cells) {
   return city;
 }
 
+std::set<uint32_t> cells_of(const char* name) {
+  std::set<uint32_t> cells;
+  std::istringstream list(environment(name, ""));
+  for (std::string cell; std::getline(list, cell, ',');)
+    cells.insert(static_cast<uint32_t>(std::stoul(cell)));
+  return cells;
+}
+
+[[noreturn]] void hang() {
+  for (;;) pause();
+}
+
+/// Fails the first or second bake of some cells. A third one is good, so that no cell is given up.
+void fault(uint32_t cell) {
+  const double rate = std::stod(environment("FAKE_FAULT_RATE", "0"));
+  const std::string begun = environment("FAKE_FAULTS", "") + "/" + std::to_string(cell) + "-";
+  if (rate == 0) return;
+  uint32_t tries = 0;
+  while (!first_to_create(begun + std::to_string(tries))) ++tries;
+  std::mt19937 chance(cell * 4 + tries);
+  if (tries >= 2 || std::uniform_real_distribution<>()(chance) >= rate) return;
+  const auto kind = chance() % 3;
+  if (kind == 0) hang();
+  raise(kind == 1 ? SIGKILL : SIGSEGV);
+}
+
 /// The same row for a cell whoever bakes it.
 CellRecord bake(uint32_t cell) {
   CellRecord record;
@@ -94,9 +130,6 @@ class FakeWorker {
  public:
   explicit FakeWorker(const std::vector<std::string>& arguments) {
     if (std::getenv("FAKE_DEVICES")) renderer_ += " on " + arguments.at(1);
-    std::istringstream list(environment("FAKE_CRASH_CELLS", ""));
-    for (std::string cell; std::getline(list, cell, ',');)
-      crash_cells_.insert(static_cast<uint32_t>(std::stoul(cell)));
   }
 
   int run() {
@@ -110,7 +143,10 @@ class FakeWorker {
         const City city = read_city(RunPaths{value.at("directory").get<std::string>()}.city());
         answer(Verb::opened, {{"renderer", renderer_}, {"cells", city.cells.size()}});
       } else if (frame->verb == Verb::bake) {
-        for (const uint32_t cell : value.at("cells").get<std::vector<uint32_t>>()) bake_cell(cell);
+        for (const uint32_t cell : value.at("cells").get<std::vector<uint32_t>>()) {
+          bake_cell(cell);
+          if (baked_ == 10 && no_memory()) return 74;
+        }
         answer(Verb::lease_done, json::object());
         if (first_to_create(environment("FAKE_LEAVE_ONCE", ""))) return 0;
       }
@@ -125,7 +161,9 @@ class FakeWorker {
     const std::string name = stage + "-" + std::to_string(part);
     if (environment("FAKE_PREPARE_DIES", "") == name) raise(SIGKILL);
     if (const int status = std::atoi(environment("FAKE_FAIL", "0").c_str()); status != 0) {
-      answer(Verb::failed, {{"status", status}, {"message", "model.json: broken on purpose; mend it"}});
+      answer(Verb::failed, {{"status", status},
+                            {"message", "model.json: broken on purpose; mend it"},
+                            {"again", environment("FAKE_FAIL_AGAIN", "0") == "1"}});
       return status;
     }
     const RunPaths run{request.at("directory").get<std::string>()};
@@ -155,18 +193,39 @@ class FakeWorker {
 
   void bake_cell(uint32_t cell) {
     ++baked_;
+    wait_at_gate();
+    if (begun_ >= 0 && write(begun_, &cell, sizeof cell) != sizeof cell) std::abort();
+    fault(cell);
+    if (hang_cells_.count(cell)) hang();
     if (crash_cells_.count(cell)) raise(SIGKILL);
     if (std::uniform_real_distribution<>()(random_) < crash_rate_) raise(SIGSEGV);
-    if (baked_ == 10 && first_to_create(environment("FAKE_HANG_ONCE", "")))
-      for (;;) pause();
+    if (baked_ == 10 && first_to_create(environment("FAKE_HANG_ONCE", ""))) hang();
     std::this_thread::sleep_for(std::chrono::milliseconds(cell_ms_));
     const bool stray = first_to_create(environment("FAKE_STRAY_ONCE", ""));
     const auto record = encode(bake(stray ? cell + 1'000'000 : cell));
     write_frame(STDOUT_FILENO, encode_frame(Verb::cell_baked, record.data(), record.size()));
   }
 
+  void wait_at_gate() const {
+    const std::string gate = environment("FAKE_GATE", "");
+    const auto open = [&] {
+      off_t limit = 0;
+      return (std::ifstream(gate) >> limit) &&
+             lseek(begun_, 0, SEEK_END) < limit * static_cast<off_t>(sizeof(uint32_t));
+    };
+    while (!gate.empty() && !open()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+
+  static bool no_memory() {
+    const std::string when = environment("FAKE_NO_MEMORY", "");
+    if (when != "always" && !first_to_create(when)) return false;
+    answer(Verb::failed, {{"status", 74}, {"message", "worker: out of memory"}, {"again", true}});
+    return true;
+  }
+
   std::string renderer_ = "fake";
-  std::set<uint32_t> crash_cells_;
+  std::set<uint32_t> crash_cells_ = cells_of("FAKE_CRASH_CELLS"), hang_cells_ = cells_of("FAKE_HANG_CELLS");
+  int begun_ = open(environment("FAKE_BEGUN", "").c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
   double crash_rate_ = std::stod(environment("FAKE_CRASH_RATE", "0"));
   uint32_t cells_ = static_cast<uint32_t>(std::stoul(environment("FAKE_CELLS", "200")));
   int prepare_ms_ = std::stoi(environment("FAKE_PREPARE_MS", "0"));

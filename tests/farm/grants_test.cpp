@@ -64,7 +64,7 @@ TEST_F(Grants, TornAndForeignLinesArePassedOver) {
     EXPECT_EQ(held(good + torn.substr(0, size)), Cells{5});
   EXPECT_EQ(held(good + torn.substr(0, torn.size() - 1)), (Cells{5, 60, 61, 62, 63}))
       << "whole without its end";
-  for (const std::string& bad :
+  for (const char* bad :
        {R"("event":"lease")", R"(["lease"])", R"({"event":"lease"})", R"({"event":["lease"],"rank":0})",
         R"({"event":"lease","rank":-1,"slot":9,"begin":1,"count":1})",
         R"({"event":"lease","rank":1,"slot":9,"begin":"1","count":1})",

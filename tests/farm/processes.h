@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
@@ -33,10 +34,14 @@ class Process {
  public:
   Process(const std::string& command, const Environment& environment, fs::path output)
       : output_(std::move(output)) {
+    // Not in the child: killed at once, it would leave what an earlier one printed.
+    const int file = open(output_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
     pid_ = fork();
-    if (pid_ != 0) return;
+    if (pid_ != 0) {
+      close(file);
+      return;
+    }
     for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
-    const int file = open(output_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     dup2(file, STDOUT_FILENO), dup2(file, STDERR_FILENO);
     execl("/bin/sh", "sh", "-c", ("exec " + command).c_str(), nullptr);
     _exit(127);
@@ -55,6 +60,11 @@ class Process {
     }
     pid_ = -1;
     return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  }
+  bool ended() const {
+    siginfo_t info{};
+    return pid_ <= 0 || (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+                         info.si_pid == pid_);
   }
   std::string output() const { return slurp(output_); }
 
@@ -85,7 +95,7 @@ inline std::vector<Entry> processes() {
   return all;
 }
 
-/// Living descendants of a process with this name.
+/// Living descendants of a process with this name; all of them when it is empty.
 inline std::vector<pid_t> descendants(pid_t root, const std::string& name) {
   const auto all = processes();
   std::vector<pid_t> family{root}, found;
@@ -93,9 +103,16 @@ inline std::vector<pid_t> descendants(pid_t root, const std::string& name) {
     for (const Entry& entry : all)
       if (entry.parent == family[i]) {
         family.push_back(entry.pid);
-        if (entry.name == name) found.push_back(entry.pid);
+        if (name.empty() || entry.name == name) found.push_back(entry.pid);
       }
   return found;
+}
+
+/// None of these lives any more. A number is not used again within a test's time.
+inline bool all_gone(const std::vector<pid_t>& pids) {
+  for (const Entry& entry : processes())
+    if (std::find(pids.begin(), pids.end(), entry.pid) != pids.end()) return false;
+  return true;
 }
 
 /// Waits until the condition holds; false when it does not within the time.
