@@ -16,7 +16,9 @@ Coordinator::Coordinator(Transport& transport, CoordinatorOptions options, RunLo
       options_(std::move(options)),
       log_(log),
       progress_(progress),
-      watch_(transport.size(), options_.rank_timeout_s, 0) {}
+      given_up_(static_cast<size_t>(transport.size()), 0),
+      watch_(transport.size(), options_.rank_timeout_s, 0),
+      trust_(transport.size()) {}
 
 void Coordinator::broadcast(const Message& message) {
   for (int rank = 0; rank < transport_.size(); ++rank) transport_.send(rank, message);
@@ -96,7 +98,6 @@ void Coordinator::handle(int from, const Message& message) {
     log_.warning("rank back", json{{"rank", from}}, watch_.name(from) + " is back");
   if (const auto* ready = std::get_if<ReadyMessage>(&message)) {
     watch_.introduce(from, ready->host.text(), ready->workers);
-    workers_ += ready->workers;
     ready_.insert(from);
   } else if (const auto* waiting = std::get_if<WaitingMessage>(&message)) {
     if (preparing_) preparing_->on_waiting({from, static_cast<int>(waiting->slot)}, *waiting);
@@ -107,7 +108,7 @@ void Coordinator::handle(int from, const Message& message) {
   } else if (const auto* idle = std::get_if<IdleMessage>(&message)) {
     on_idle({from, static_cast<int>(idle->slot)}, *idle);
   } else if (const auto* cell = std::get_if<CellMessage>(&message)) {
-    on_cell(*cell);
+    on_cell(from, *cell);
   } else if (const auto* done = std::get_if<LeaseDoneMessage>(&message)) {
     if (book_) book_->lease_done(done->lease);
     wait_for_lease({from, static_cast<int>(done->slot)});
@@ -159,7 +160,8 @@ void Coordinator::wait_for_lease(WorkerId worker) {
   idle_.insert(worker);
 }
 
-void Coordinator::on_cell(const CellMessage& message) {
+void Coordinator::on_cell(int rank, const CellMessage& message) {
+  trust_.finished(rank);
   if (!book_ || !book_->cell_done(message.lease, message.cell, now_s())) return;
   ++tally_.done;
   tally_.bake_us += message.bake_us;
@@ -167,7 +169,7 @@ void Coordinator::on_cell(const CellMessage& message) {
 
 void Coordinator::hand_out() {
   for (auto worker = idle_.begin(); worker != idle_.end();) {
-    if (watch_.silent(worker->rank)) {
+    if (watch_.silent(worker->rank) || trust_.barred(worker->rank)) {
       ++worker;
       continue;
     }

@@ -11,6 +11,7 @@
 #include "farm/log.h"
 #include "farm/preparing.h"
 #include "farm/progress.h"
+#include "farm/rank_trust.h"
 #include "farm/rank_watch.h"
 #include "farm/run_directory.h"
 #include "farm/transport.h"
@@ -66,9 +67,11 @@ class Coordinator {
   void on_preparation_complete();
   void on_idle(WorkerId worker, const IdleMessage& message);
   void wait_for_lease(WorkerId worker);
-  void on_cell(const CellMessage& message);
+  void on_cell(int rank, const CellMessage& message);
   void on_lost(WorkerId worker, const LostMessage& message);
   void on_silent(int rank);
+  void bar(int rank, const LostMessage& last);
+  bool nobody_left() const;
   void record_all_visible(uint32_t cell, const std::string& why);
   void hand_out();
   void broadcast(const Message& message);
@@ -84,10 +87,11 @@ class Coordinator {
   std::unique_ptr<LeaseBook> book_;
   std::vector<bool> done_;
   std::set<WorkerId> idle_, open_;  ///< waiting for a lease; with a city loaded
-  uint32_t given_up_ = 0, workers_ = 0;
+  std::vector<uint32_t> given_up_;  ///< [ranks] workers that will not start again
   std::set<int> ready_, left_;
   WatchedTime watched_;
   RankWatch watch_;
+  RankTrust trust_;
   std::unique_ptr<ShardWriter> all_visible_;
   Clock::time_point began_ = Clock::now(), phase_began_ = Clock::now();
 };

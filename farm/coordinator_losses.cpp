@@ -22,10 +22,10 @@ void Coordinator::on_lost(WorkerId worker, const LostMessage& message) {
   const auto poison = book_ && message.lease != 0 ? book_->lease_lost(message.lease, true) : std::nullopt;
   if (book_) book_->take_back(worker);
   if (poison) record_all_visible(*poison, message.reason.text());
-  given_up_ += message.given_up;
+  given_up_[static_cast<size_t>(worker.rank)] += message.given_up;
+  if (message.lease != 0 && trust_.died(worker.rank)) bar(worker.rank, message);
   const auto condemned = preparing_ ? preparing_->on_lost(worker, message) : std::nullopt;
-  const bool none_left = ready_.size() == static_cast<size_t>(transport_.size()) && given_up_ == workers_;
-  if (!condemned && !none_left) return;
+  if (!condemned && !nobody_left()) return;
   throw Error(
       static_cast<ExitStatus>(message.status),
       fmt::format("{}: {} ended its worker three times: {}{}; see {}", options_.run.directory.string(),
@@ -35,6 +35,25 @@ void Coordinator::on_lost(WorkerId worker, const LostMessage& message) {
                   message.reason.text(), transport_.size() > 1 ? ", on " + watch_.name(worker.rank) : "",
                   worker_log(options_.run, tally_.attempt, worker.rank, static_cast<uint32_t>(worker.slot))
                       .string()));
+}
+
+/// The others go on without it.
+void Coordinator::bar(int rank, const LostMessage& last) {
+  log_.warning(
+      "rank barred", json{{"rank", rank}, {"reason", last.reason.text()}},
+      fmt::format("{} ended its workers {} times in a row, while others finished cells; it gets no more "
+                  "of them. The last one: {}",
+                  watch_.name(rank), RankTrust::deaths_in_a_row, last.reason.text()));
+}
+
+/// There is no worker any more that could get something to do.
+bool Coordinator::nobody_left() const {
+  if (ready_.size() < static_cast<size_t>(transport_.size())) return false;
+  for (int rank = 0; rank < transport_.size(); ++rank)
+    if (!watch_.silent(rank) && !trust_.barred(rank) &&
+        given_up_[static_cast<size_t>(rank)] < watch_.workers(rank))
+      return false;
+  return true;
 }
 
 /// It may have lost its host, or only be stopped: then its answers come later, and the first one counts.
@@ -51,6 +70,11 @@ void Coordinator::on_silent(int rank) {
                     options_.run.directory.string(), what, *part));
   for (uint32_t slot = 0; book_ && slot < watch_.workers(rank); ++slot)
     book_->take_back({rank, static_cast<int>(slot)});
+  if (nobody_left())
+    throw Error(ExitStatus::stopped_early,
+                fmt::format("{}: {}, and no other worker is left; look after the hosts, then start the same "
+                            "command again",
+                            options_.run.directory.string(), what));
 }
 
 /// Safe, never lost: a cell that cannot be baked sees everything.

@@ -38,6 +38,18 @@ class BakeFaults : public Bake {
   }
 };
 
+// A host with a bad driver does not have good cells recorded all visible.
+TEST_F(BakeFaults, RankWhoseWorkersAlwaysDieGetsNoMoreCells) {
+  if (!has_mpirun()) GTEST_SKIP() << "no mpirun";
+  const std::string expected = digest_of({});
+  ASSERT_EQ(run(mpirun(3, bake("", "run", 1)), {{"FAKE_BAD_RANK", "1"}, {"FAKE_CELL_MS", "20"}}), 0)
+      << output;
+  EXPECT_NE(output.find("200 cells (200 in this run, 0 all visible)"), std::string::npos) << output;
+  EXPECT_TRUE(logged("rank barred")) << log();
+  EXPECT_LE(report()["retries"], 5) << output;
+  EXPECT_EQ(digest(), expected);
+}
+
 // R2: of 200 cells about one bake in six ends in a crash, a segfault or a hang.
 TEST_F(BakeFaults, CrashesSegfaultsAndHangsUnderMpirun) {
   if (!has_mpirun()) GTEST_SKIP() << "no mpirun";

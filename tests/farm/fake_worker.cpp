@@ -4,6 +4,7 @@
 //   FAKE_CELL_MS     time that a cell takes [1]
 //   FAKE_CRASH_CELLS cells ("17,40") whose bake ends in SIGKILL, each time
 //   FAKE_CRASH_RATE  probability (0..1) that a cell ends in SIGSEGV
+//   FAKE_BAD_RANK    the rank whose workers end in SIGSEGV over every cell
 //   FAKE_BEGUN       a file: every cell that is begun is appended to it, as u32
 //   FAKE_GATE        a file with a number: no cell is begun while FAKE_BEGUN has that many
 //   FAKE_FAULT_RATE  probability that a cell's first or second bake ends in SIGKILL or SIGSEGV or hangs: the
@@ -195,6 +196,7 @@ class FakeWorker {
     ++baked_;
     wait_at_gate();
     if (begun_ >= 0 && write(begun_, &cell, sizeof cell) != sizeof cell) std::abort();
+    if (environment("FAKE_BAD_RANK", "none") == environment("OMPI_COMM_WORLD_RANK", "0")) raise(SIGSEGV);
     fault(cell);
     if (hang_cells_.count(cell)) hang();
     if (crash_cells_.count(cell)) raise(SIGKILL);
