@@ -20,14 +20,15 @@ namespace {
 
 constexpr size_t sampled_cells = 16;
 
-/// What three cities took with the default settings and seeds of 6 to 25 cm (docs/speed-against-error.md):
-/// 932 houses of Den Haag, 6,144 generated ones, and the middle of Linz.
 struct Range {
   double low, high;
   Range operator*(double factor) const { return {low * factor, high * factor}; }
 };
+// What three cities took with the default settings and seeds of 6 to 25 cm: 932 objects of Den Haag, 6,144
+// generated houses, and the middle of Linz (docs/speed-against-error.md).
 constexpr Range core_s_a_triangle{0.0002, 0.0035}, core_s_a_cell{0.13, 0.83};
-constexpr Range prepared_bytes_a_triangle{400, 1000}, shard_bytes_a_cell{900, 7000};
+constexpr Range prepared_bytes_a_triangle{520, 1180}, shard_bytes_a_cell{530, 2610},
+    result_bytes_a_triangle{10, 86};
 
 std::string time_range(const Range& seconds) {
   return fmt::format("{} to {}", duration_text(seconds.low), duration_text(seconds.high));
@@ -47,10 +48,11 @@ std::string plan_of_model(const Settings& settings, uint32_t workers) {
       "cells       about {:.0f}, by the plan of the model; {} objects, {} triangles\n"
       "time        {} to prepare and {} to bake, if this city is like those that were measured;\n"
       "            once it is prepared, --dry-run bakes a few cells to say it better\n"
-      "disk        {} for prepared/, {} for shards/, as much again for the result\n",
+      "disk        {} for prepared/, {} for shards/, {} for the result\n",
       cells, model.scene.objects.size(), model.scene.triangle_count(),
       time_range(core_s_a_triangle * (triangles / workers)), time_range(core_s_a_cell * (cells / workers)),
-      bytes_range(prepared_bytes_a_triangle * triangles), bytes_range(shard_bytes_a_cell * cells));
+      bytes_range(prepared_bytes_a_triangle * triangles), bytes_range(shard_bytes_a_cell * cells),
+      bytes_range(result_bytes_a_triangle * triangles));
 }
 
 /// Evenly over those that are not done.
