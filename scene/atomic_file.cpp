@@ -43,7 +43,7 @@ class Temporary {
     descriptor_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (descriptor_ < 0) fail(name, "cannot create the file");
     // Where there are no locks, dead writers' files stay.
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    if (!lock_soon(descriptor_)) {
       ::close(descriptor_);
       throw Error(ExitStatus::input_output,
                   fmt::format("{}: a process of the same number on another host writes it; run again",
@@ -56,6 +56,16 @@ class Temporary {
       fail(name, "cannot write the file");
     }
     return ::stat(name.c_str(), &named) == 0 && mine.st_ino == named.st_ino;
+  }
+
+  /// A remover of dead writers' files holds the lock for a moment, a writer for as long as it writes.
+  /// \return false: a writer holds it.
+  static bool lock_soon(int descriptor) {
+    for (int i = 0; i < 200; ++i) {
+      if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return true;
+      ::usleep(10'000);
+    }
+    return false;
   }
 
   int descriptor_ = -1;
