@@ -21,6 +21,8 @@ find_package(Boost REQUIRED)                                 # [libboost-dev] CR
 find_package(GTest REQUIRED)                                 # [libgtest-dev]
 pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)  # [libtomlplusplus-dev]
 pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)      # [libepoxy-dev]
+find_package(glfw3 REQUIRED)                                 # [libglfw3-dev]
+pkg_check_modules(imgui REQUIRED IMPORTED_TARGET imgui)      # [libimgui-dev]
 pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)          # [libegl-dev]
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash) # [libxxhash-dev]
 

@@ -27,6 +27,29 @@ struct ObjectRanges {
   uint8_t count = 0;
 };
 
+/// Triangle numbers of a whole city in each of the five orders, [T] each. Object i's triangles stay in
+/// [triangle_begin, triangle_end). Equal keys keep the order of the city.
+using TriangleOrders = std::array<std::vector<uint32_t>, order_count>;
+TriangleOrders triangle_orders(const City& city);
+
+/// What is looked up for each object and frame: how many triangles each slice adds to each order. 4 bytes a
+/// slice and order, in place of the triangles.
+class SliceRanges {
+ public:
+  SliceRanges() = default;
+  explicit SliceRanges(const City& city);
+  /// The ranges of the orders that draw exactly the triangles for which draws(index, slices) holds; in
+  /// constant time. An index that names more slices than the object has draws all or nothing, as draws().
+  ObjectRanges ranges(uint32_t object, VisibilityIndex index) const;
+  uint64_t bytes() const;  ///< of memory
+
+ private:
+  std::vector<uint32_t> counts_;
+  std::vector<uint64_t> first_;           ///< [N+1] of an object in counts_
+  std::vector<uint64_t> triangle_begin_;  ///< [N+1]
+  std::vector<SliceCounts> slices_;       ///< [N]
+};
+
 /// The five orders of a whole city. Object i's triangles stay in [triangle_begin, triangle_end) in each of
 /// them. Keys are sorted so that visible triangles come first: ascending for *_first, descending for *_last.
 class IndexRanges {

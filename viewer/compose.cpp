@@ -69,12 +69,9 @@ Image compose(StereoMode mode, const std::vector<Image>& pictures) {
       return top_bottom(pictures[0], pictures[1]);
     case StereoMode::anaglyph:
       return anaglyph(pictures[0], pictures[1]);
-    case StereoMode::mono:
-    case StereoMode::left:
-    case StereoMode::right:
-      break;
+    default:
+      return pictures[0];
   }
-  return pictures[0];
 }
 
 }  // namespace veduta

@@ -2,7 +2,6 @@
 // the window of the screen, so that points at the screen distance fall on the same pixel for both.
 #include "viewer/stereo.h"
 
-#include <array>
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <utility>
@@ -10,12 +9,23 @@
 namespace veduta {
 namespace {
 
-constexpr std::array<std::pair<const char*, StereoMode>, 6> modes{{{"mono", StereoMode::mono},
-                                                                   {"left", StereoMode::left},
-                                                                   {"right", StereoMode::right},
-                                                                   {"side-by-side", StereoMode::side_by_side},
-                                                                   {"top-bottom", StereoMode::top_bottom},
-                                                                   {"anaglyph", StereoMode::anaglyph}}};
+constexpr std::pair<const char*, StereoMode> modes[] = {
+    {"mono", StereoMode::mono},
+    {"left", StereoMode::left},
+    {"right", StereoMode::right},
+    {"quad-buffer", StereoMode::quad_buffer},
+    {"side-by-side", StereoMode::side_by_side},
+    {"side-by-side-half", StereoMode::side_by_side_half},
+    {"top-bottom", StereoMode::top_bottom},
+    {"top-bottom-half", StereoMode::top_bottom_half},
+    {"cross-eyed", StereoMode::cross_eyed},
+    {"anaglyph", StereoMode::anaglyph},
+    {"anaglyph-red-cyan", StereoMode::anaglyph_red_cyan},
+    {"anaglyph-green-magenta", StereoMode::anaglyph_green_magenta},
+    {"anaglyph-amber-blue", StereoMode::anaglyph_amber_blue},
+    {"interlaced-rows", StereoMode::interlaced_rows},
+    {"interlaced-columns", StereoMode::interlaced_columns},
+    {"checkerboard", StereoMode::checkerboard}};
 
 }  // namespace
 
@@ -73,9 +83,7 @@ std::vector<Eye> eyes(StereoMode mode) {
       return {Eye::left};
     case StereoMode::right:
       return {Eye::right};
-    case StereoMode::side_by_side:
-    case StereoMode::top_bottom:
-    case StereoMode::anaglyph:
+    default:
       break;
   }
   return {Eye::left, Eye::right};

@@ -53,9 +53,26 @@ struct EyeView {
 EyeView eye_view(const Pose& pose, const Optics& optics, Eye eye);
 
 /// How the two eyes become one picture.
-enum class StereoMode : uint8_t { mono, left, right, side_by_side, top_bottom, anaglyph };
+enum class StereoMode : uint8_t {
+  mono,
+  left,
+  right,
+  quad_buffer,        ///< the driver shows left and right by itself
+  side_by_side,       ///< full: each picture keeps its proportions
+  side_by_side_half,  ///< squeezed to half their width, for screens that stretch them again
+  top_bottom,
+  top_bottom_half,
+  cross_eyed,  ///< side by side, the right eye's picture on the left
+  anaglyph,    ///< red-cyan glasses, colours by Dubois
+  anaglyph_red_cyan,
+  anaglyph_green_magenta,
+  anaglyph_amber_blue,
+  interlaced_rows,
+  interlaced_columns,
+  checkerboard
+};
 
-/// "mono", "left", "right", "side-by-side", "top-bottom", "anaglyph"; nothing for another word.
+/// The words of the command line: "mono", "side-by-side", "anaglyph-red-cyan", ...; nothing for another word.
 std::optional<StereoMode> parse_stereo_mode(const std::string& word);
 std::vector<std::string> stereo_mode_words();
 

@@ -25,9 +25,8 @@ class AtomicFile : public ::testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   void write(const std::string& text) {
-    write_atomically(file_, [&](const std::filesystem::path& temporary) {
-      std::ofstream(temporary) << text;
-    });
+    write_atomically(file_,
+                     [&](const std::filesystem::path& temporary) { std::ofstream(temporary) << text; });
   }
   std::string read() const {
     std::string text;

@@ -1,0 +1,75 @@
+// A PVS file read piece by piece: for cities that are larger than memory, and for who wants one row of many.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pvs/cell_grid.h"
+#include "pvs/city.h"
+#include "pvs/pvs_file.h"
+#include "pvs/verification.h"
+#include "pvs/visibility.h"
+
+namespace veduta {
+
+/// All of a file but geometry and entries of rows: what grows with objects and cells only.
+struct PvsIndex {
+  PvsHeader header;
+  std::string crs;
+  std::array<double, 3> origin{0, 0, 0};
+  std::string content_digest;
+  std::vector<Object> objects;          ///< [N] their triangles by the numbers of the file
+  std::vector<Box> bounds;              ///< [N] empty for an object without triangles
+  std::vector<SliceCounts> slices;      ///< [N]
+  std::vector<Box> cells;               ///< [C]
+  CellGrid grid;                        ///< of the cells
+  std::vector<uint32_t> cell_row;       ///< [C]
+  std::vector<CellStatus> cell_status;  ///< [C]
+  std::vector<uint32_t> bake_us;        ///< [C]
+  std::vector<float> overestimate;      ///< [C]
+  std::vector<uint32_t> cell_worker;    ///< [C] index into `workers`; empty: the file does not say
+  std::vector<std::string> workers;     ///< who baked the cells
+  std::vector<uint64_t> row_begin;      ///< [R+1]
+  Navigation navigation;
+  std::optional<Verification> verification;
+
+  /// As PvsFile::find_cell: the lowest cell that holds the point, or -1. Constant time.
+  int64_t find_cell(const glm::vec3& point) const { return grid.find(cells, point); }
+  uint32_t row_size(uint32_t cell) const {
+    return static_cast<uint32_t>(row_begin[cell_row[cell] + 1] - row_begin[cell_row[cell]]);
+  }
+};
+
+/// An open file. Opening reads and checks the index, digests included; rows and geometry are checked as they
+/// are read: the checksum of every chunk, and every number in range. HDF5 is not safe with threads: a process
+/// uses all of its streams and files from one thread at a time.
+class PvsStream {
+ public:
+  /// \throw Error as read_pvs.
+  explicit PvsStream(const std::filesystem::path& file);
+  ~PvsStream();
+  PvsStream(PvsStream&&) noexcept;
+  PvsStream& operator=(PvsStream&&) noexcept;
+
+  const PvsIndex& index() const { return index_; }
+
+  /// Entries of a row (not: of a cell; see PvsIndex::cell_row).
+  /// \throw Error(bad_input) when it is damaged, naming the dataset.
+  PvsRow read_row(uint32_t row) const;
+
+  /// Objects [first, last) as a city of their own: scene (vertices, triangles, material, objects with
+  /// triangle numbers from 0; no parts), slices and triangle_slices. No cells, no navigation.
+  /// \throw Error(bad_input) when it is damaged, naming the dataset.
+  City read_objects(uint32_t first, uint32_t last) const;
+
+ private:
+  struct Open;
+  std::unique_ptr<Open> open_;
+  PvsIndex index_;
+};
+
+}  // namespace veduta

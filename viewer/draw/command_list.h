@@ -1,0 +1,64 @@
+// From rows of the PVS to the commands that draw them (thesis §5.1.4, Algorithm 5.2; DESIGN §6).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "viewer/frustum.h"
+#include "viewer/stream/page.h"
+#include "viewer/view_state.h"
+
+namespace veduta {
+
+/// GL's DrawElementsIndirectCommand.
+struct IndirectCommand {
+  uint32_t count = 0;  ///< indices
+  uint32_t instances = 1;
+  uint32_t first_index = 0;
+  int32_t base_vertex = 0;
+  uint32_t base_instance = 0;
+};
+static_assert(sizeof(IndirectCommand) == 20);
+
+/// Commands, and what they draw. A triangle in both of an object's ranges counts twice: it is drawn twice.
+struct CommandList {
+  std::vector<IndirectCommand> commands;
+  uint32_t objects = 0;
+  uint64_t triangles = 0;
+  uint32_t absent = 0;  ///< objects that should be drawn, of pages that are not here
+};
+
+/// What the eyes can see together.
+struct VisibleObjects {
+  int64_t cell = -1;              ///< of the midpoint of the eyes; -1: outside every cell
+  bool everything = false;        ///< no row holds, or the PVS is off: nothing may be left out
+  bool waiting = false;           ///< a row that is needed is not here: `everything` is set
+  std::vector<PvsEntry> entries;  ///< by ascending object; an object may have two, whose union is visible
+};
+
+/// Knows which pages are here, and makes the lists of a frame. Objects are drawn in ascending order, so that
+/// two lists draw what they share in the same sequence.
+class CommandLister {
+ public:
+  CommandLister(const PvsIndex& index, const std::vector<PageSpan>& pages);
+
+  void add(uint32_t page, const PagePlace& place, SliceRanges&& ranges);
+  void remove(uint32_t page);
+
+  /// What is visible, less what is outside all of the frusta; no frusta: nothing is culled.
+  CommandList list(const VisibleObjects& visible, std::span<const Frustum> frusta) const;
+
+ private:
+  struct Here {
+    bool here = false;
+    PagePlace place;
+    SliceRanges ranges;
+  };
+  const PvsIndex& index_;
+  std::vector<PageSpan> pages_;
+  std::vector<uint32_t> page_of_;  ///< [N]
+  std::vector<Here> here_;         ///< [pages]
+};
+
+}  // namespace veduta

@@ -1,0 +1,28 @@
+// The window of the viewer.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "viewer/frame.h"
+
+namespace veduta {
+
+struct WindowOptions {
+  uint32_t width = 1280, height = 720;
+  bool fullscreen = false;
+  FrameOptions frame;
+  ViewState begin;
+  std::vector<Pose> path;        ///< to play on request; empty: the recorded one
+  bool play = false;             ///< play `path` once from the start, then end
+  std::filesystem::path folder;  ///< for screenshots and recorded paths
+  std::filesystem::path stats;   ///< CSV, a line for each frame; empty: none
+};
+
+/// Shows the city until the user closes the window.
+/// \throw Error(usage) without a display, without OpenGL 4.3; quad-buffer stereo falls back to side-by-side
+///   with one line on standard error where the driver has none.
+void show_window(CityStream& stream, const WindowOptions& options);
+
+}  // namespace veduta
