@@ -110,5 +110,96 @@ TEST(IndexRanges, TheWholeObjectIsOneRangeAndNothingIsNone) {
   }
 }
 
+std::set<uint32_t> drawn(const TriangleOrders& orders, const ObjectRanges& found) {
+  std::set<uint32_t> triangles;
+  for (uint8_t i = 0; i < found.count; ++i)
+    for (uint64_t e = found.range[i].begin; e < found.range[i].end; ++e)
+      triangles.insert(orders[static_cast<size_t>(found.range[i].order)][e]);
+  return triangles;
+}
+
+TEST(SliceRanges, DrawExactlyTheTrianglesOfEveryIndex) {
+  for (uint32_t seed = 1; seed <= 4; ++seed) {
+    const City city = random_city(seed);
+    const TriangleOrders orders = triangle_orders(city);
+    const SliceRanges slices(city);
+    for (uint32_t object = 0; object < city.scene.objects.size(); ++object) {
+      // More slices than the object has, too: any byte that a program may come to ask for.
+      std::vector<VisibilityIndex> indices = valid_indices(city.slices[object]);
+      for (int x = -128; x <= 127; ++x)
+        for (int z : {-128, -1, 0, 1, 2, 127}) {
+          indices.push_back({static_cast<int8_t>(x), 0, static_cast<int8_t>(z)});
+          indices.push_back({0, static_cast<int8_t>(x), static_cast<int8_t>(z)});
+        }
+      for (VisibilityIndex index : indices)
+        ASSERT_EQ(drawn(orders, slices.ranges(object, index)), expected(city, object, index))
+            << "seed " << seed << " object " << object << " index " << +index.x << " " << +index.y << " "
+            << +index.z;
+    }
+  }
+}
+
+TEST(SliceRanges, OrdersAndRangesAreThoseOfIndexRanges) {
+  for (uint32_t seed = 11; seed <= 14; ++seed) {
+    const City city = random_city(seed);
+    const IndexRanges slow(city);
+    const TriangleOrders orders = triangle_orders(city);
+    const SliceRanges slices(city);
+    for (size_t o = 0; o < order_count; ++o) ASSERT_EQ(orders[o], slow.order(static_cast<Order>(o)));
+    for (uint32_t object = 0; object < city.scene.objects.size(); ++object)
+      for (VisibilityIndex index : valid_indices(city.slices[object])) {
+        const ObjectRanges want = slow.ranges(object, index), got = slices.ranges(object, index);
+        ASSERT_EQ(got.count, want.count);
+        for (uint8_t i = 0; i < want.count; ++i) {
+          ASSERT_EQ(got.range[i].order, want.range[i].order);
+          ASSERT_EQ(got.range[i].begin, want.range[i].begin);
+          ASSERT_EQ(got.range[i].end, want.range[i].end);
+        }
+      }
+  }
+}
+
+TEST(SliceRanges, AnExampleByHand) {
+  // Four triangles in 3 x 1 x 2 slices.
+  City city;
+  city.scene.objects.push_back({"a", Kind::building, 0, 4});
+  city.slices = {{3, 1, 2}};
+  city.triangle_slices = {{3, 3, 1, 1, 1, 1}, {1, 2, 1, 1, 1, 2}, {1, 1, 1, 1, 2, 2}, {2, 3, 1, 1, 1, 1}};
+  const TriangleOrders orders = triangle_orders(city);
+  EXPECT_EQ(orders[static_cast<size_t>(Order::x_first)], (std::vector<uint32_t>{1, 2, 3, 0}));
+  EXPECT_EQ(orders[static_cast<size_t>(Order::x_last)], (std::vector<uint32_t>{0, 3, 1, 2}));
+  EXPECT_EQ(orders[static_cast<size_t>(Order::y_first)], (std::vector<uint32_t>{0, 1, 2, 3}));
+  EXPECT_EQ(orders[static_cast<size_t>(Order::z_last)], (std::vector<uint32_t>{1, 2, 0, 3}));
+  const ObjectRanges found = SliceRanges(city).ranges(0, {-1, 0, 2});  // last x-slice >= 2, last z-slice >= 2
+  ASSERT_EQ(found.count, 2);
+  EXPECT_EQ(found.range[0].order, Order::z_last);
+  EXPECT_EQ(found.range[0].end, 2u);
+  EXPECT_EQ(found.range[1].order, Order::x_last);
+  EXPECT_EQ(found.range[1].end, 3u);
+}
+
+TEST(SliceRanges, TheWholeObjectIsOneRangeAndNothingIsNone) {
+  const City city = random_city(3);
+  const SliceRanges slices(city);
+  for (uint32_t object = 0; object < city.scene.objects.size(); ++object) {
+    const Object& o = city.scene.objects[object];
+    EXPECT_EQ(slices.ranges(object, {}).count, 0);
+    const auto x = static_cast<int8_t>(city.slices[object].x);
+    for (const VisibilityIndex index :
+         {completely_visible, VisibilityIndex{1, 0, 1}, VisibilityIndex{x, 0, 2}}) {
+      const ObjectRanges whole = slices.ranges(object, index);
+      ASSERT_EQ(whole.count, o.triangle_begin == o.triangle_end ? 0 : 1) << "must not be drawn twice";
+      if (whole.count == 0) continue;
+      EXPECT_EQ(whole.range[0].begin, o.triangle_begin);
+      EXPECT_EQ(whole.range[0].end, o.triangle_end);
+    }
+  }
+}
+
+TEST(SliceRanges, OfNoObjects) {
+  EXPECT_EQ(triangle_orders(City{})[0].size(), 0u);
+  EXPECT_GT(SliceRanges(City{}).bytes(), 0u);
+}
+
 }  // namespace
 }  // namespace veduta
