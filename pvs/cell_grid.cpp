@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/vector_relational.hpp>
 #include <tuple>
 
 namespace veduta {
@@ -72,6 +73,39 @@ int64_t CellGrid::find(const std::vector<Box>& cells, const glm::vec3& point) co
   for (; entry != entries_.end() && entry->bin == bin; ++entry)
     if (cells[entry->cell].contains(point)) return entry->cell;
   return -1;
+}
+
+std::vector<uint32_t> CellGrid::touching(const std::vector<Box>& cells, const Box& box) const {
+  std::vector<uint32_t> found;
+  const Box inside{glm::max(box.lower, bounds_.lower), glm::min(box.upper, bounds_.upper)};
+  if (!glm::all(glm::lessThanEqual(inside.lower, inside.upper))) return found;  // nor for a NaN
+  const auto consider = [&](uint32_t c) {
+    if (glm::all(glm::lessThanEqual(cells[c].lower, box.upper)) &&
+        glm::all(glm::lessThanEqual(box.lower, cells[c].upper)))
+      found.push_back(c);
+  };
+  std::array<int64_t, 3> first{}, last{};
+  for (int axis = 0; axis < 3; ++axis) {
+    first[static_cast<size_t>(axis)] = bin_along(axis, inside.lower[axis]);
+    last[static_cast<size_t>(axis)] = bin_along(axis, inside.upper[axis]);
+  }
+  // Bins that follow each other along x follow each other among the entries.
+  const double runs =
+      static_cast<double>(last[1] - first[1] + 1) * static_cast<double>(last[2] - first[2] + 1);
+  if (runs > static_cast<double>(cells.size())) {
+    for (uint32_t c = 0; c < cells.size(); ++c) consider(c);
+    return found;
+  }
+  for (int64_t z = first[2]; z <= last[2]; ++z)
+    for (int64_t y = first[1]; y <= last[1]; ++y) {
+      const uint64_t end = key(last[0], y, z);
+      auto entry = std::lower_bound(entries_.begin(), entries_.end(), key(first[0], y, z),
+                                    [](const Entry& e, uint64_t wanted) { return e.bin < wanted; });
+      for (; entry != entries_.end() && entry->bin <= end; ++entry) consider(entry->cell);
+    }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
 }
 
 }  // namespace veduta

@@ -17,6 +17,8 @@ class CellGrid {
 
   /// The lowest cell that holds the point, or -1. `cells` are those that the grid was made of.
   int64_t find(const std::vector<Box>& cells, const glm::vec3& point) const;
+  /// All cells that the closed box touches, ascending.
+  std::vector<uint32_t> touching(const std::vector<Box>& cells, const Box& box) const;
   size_t cell_count() const { return cell_count_; }
 
  private:

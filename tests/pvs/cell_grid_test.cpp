@@ -15,6 +15,15 @@ int64_t scan(const std::vector<Box>& cells, const glm::vec3& point) {
   return -1;
 }
 
+std::vector<uint32_t> scan(const std::vector<Box>& cells, const Box& box) {
+  std::vector<uint32_t> found;
+  for (uint32_t c = 0; c < cells.size(); ++c) {
+    const Box both{glm::max(cells[c].lower, box.lower), glm::min(cells[c].upper, box.upper)};
+    if (!both.empty()) found.push_back(c);
+  }
+  return found;
+}
+
 void expect_same(const std::vector<Box>& cells, uint32_t seed, float range_m) {
   const CellGrid grid(cells);
   std::mt19937 random(seed);
@@ -22,6 +31,11 @@ void expect_same(const std::vector<Box>& cells, uint32_t seed, float range_m) {
   for (int i = 0; i < 20000; ++i) {
     const glm::vec3 point{place(random), place(random), place(random) * 0.1f};
     ASSERT_EQ(grid.find(cells, point), scan(cells, point)) << point.x << ' ' << point.y << ' ' << point.z;
+  }
+  for (int i = 0; i < 2000; ++i) {
+    const glm::vec3 lower{place(random), place(random), place(random) * 0.1f};
+    const Box box{lower, lower + std::exp2(place(random) / range_m * 8)};
+    ASSERT_EQ(grid.touching(cells, box), scan(cells, box));
   }
   // Corners lie on the faces that neighbours share.
   for (const Box& cell : cells)
@@ -63,6 +77,10 @@ TEST(CellGrid, FlatCellsAndNoCells) {
   EXPECT_EQ(grid.find(cells, {15, 5, 1}), 1);
   EXPECT_EQ(grid.find(cells, {15, 5, 1.001f}), -1);
   EXPECT_EQ(grid.find(cells, {NAN, 5, 1}), -1);
+  EXPECT_EQ(grid.touching(cells, {{10, 0, 0}, {10, 1, 1}}), (std::vector<uint32_t>{0, 1}));
+  EXPECT_TRUE(grid.touching(cells, {{0, 0, 1.001f}, {20, 10, 2}}).empty());
+  EXPECT_TRUE(grid.touching(cells, {{NAN, 0, 0}, {NAN, 1, 1}}).empty());
+  EXPECT_TRUE(CellGrid().touching({}, {{0, 0, 0}, {1, 1, 1}}).empty());
 }
 
 }  // namespace

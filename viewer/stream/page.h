@@ -15,11 +15,16 @@ namespace veduta {
 struct PageSpan {
   uint32_t first_object = 0, last_object = 0;
   uint64_t triangles = 0;
-  Box bounds;
+  Box bounds;  ///< empty where there are no triangles
 };
 
-/// Cuts the objects of a file into pages of about `triangles_per_page`; an object with more is a page.
-std::vector<PageSpan> make_pages(const PvsIndex& index, uint64_t triangles_per_page);
+/// How large a page should be. A file's objects follow each other in no order of space, so most of what a
+/// large page holds is not what a row lists. 1024 triangles are about 100 kB.
+inline constexpr uint64_t triangles_per_page = 1024;
+
+/// Cuts the objects of a file into pages of at most this many triangles; an object with more is a page.
+/// Every object is in one page, the pages are in the order of their objects.
+std::vector<PageSpan> make_pages(const PvsIndex& index, uint64_t most_triangles = triangles_per_page);
 
 /// A page as the GPU wants it, and what is looked up in it for each frame.
 struct Page {
@@ -32,7 +37,17 @@ struct Page {
   uint64_t gpu_bytes() const {
     return vertices.size() * sizeof(MeshVertex) + elements.size() * sizeof(uint32_t);
   }
+  /// With what is looked up.
+  uint64_t bytes() const { return gpu_bytes() + ranges.bytes(); }
 };
+
+/// As many bytes as a page with these triangles takes at most on the GPU.
+constexpr uint64_t most_gpu_bytes(uint64_t triangles) {
+  return triangles * 3 * (sizeof(MeshVertex) + order_count * sizeof(uint32_t));
+}
+
+/// A page of its objects: what PvsStream::read_objects gives for the span. Sorts the triangles.
+Page make_page(const City& objects, uint32_t first_object, uint32_t number);
 
 /// Reads a page and sorts its triangles. \throw Error(bad_input) when the file is damaged.
 Page read_page(const PvsStream& stream, const std::vector<PageSpan>& pages, uint32_t number);
