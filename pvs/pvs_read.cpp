@@ -73,7 +73,7 @@ PvsFile read_pvs(const std::filesystem::path& path) {
   refuse(input, find_row_defect(file));
   if (input.has(verification_group)) {
     file.verification = read_verification(input, root.content_digest);
-    refuse(input, find_defect(*file.verification, file.city));
+    refuse(input, find_defect(*file.verification, file.city.cells.size(), file.city.scene.objects));
   }
   file.index_cells();
   return file;

@@ -74,12 +74,12 @@ bool Verification::passed() const {
   return rays() > 0 && false_invisible_objects() == 0 && false_invisible_triangles() == 0;
 }
 
-std::optional<std::string> find_defect(const Verification& v, const City& city) {
+std::optional<std::string> find_defect(const Verification& v, size_t cells, const std::vector<Object>& all) {
   if (auto defect = find_number_defect(v)) return defect;
-  const uint64_t objects = city.scene.objects.size(), triangles = city.triangle_slices.size();
+  const uint64_t objects = all.size(), triangles = all.empty() ? 0 : all.back().triangle_end;
   for (size_t i = 0; i < v.cells.size(); ++i) {
     const VerifiedCell& cell = v.cells[i];
-    if (cell.cell >= city.cells.size()) return fmt::format("/verification/cells/cell: no cell {}", cell.cell);
+    if (cell.cell >= cells) return fmt::format("/verification/cells/cell: no cell {}", cell.cell);
     if (i > 0 && cell.cell <= v.cells[i - 1].cell)
       return fmt::format("/verification/cells/cell: cell {} is not in ascending order", cell.cell);
     if (std::max({cell.pvs_objects, cell.seen_objects, cell.false_invisible_objects,
@@ -92,9 +92,9 @@ std::optional<std::string> find_defect(const Verification& v, const City& city) 
   }
   for (size_t i = 0; i < v.witnesses.size(); ++i) {
     const Witness& w = v.witnesses[i];
-    if (w.cell >= city.cells.size()) return fmt::format("/verification/examples/cell: no cell {}", w.cell);
+    if (w.cell >= cells) return fmt::format("/verification/examples/cell: no cell {}", w.cell);
     if (w.object >= objects) return fmt::format("/verification/examples/object: no object {}", w.object);
-    const Object& object = city.scene.objects[w.object];
+    const Object& object = all[w.object];
     if (w.triangle < object.triangle_begin || w.triangle >= object.triangle_end)
       return fmt::format("/verification/examples/triangle: {} is not of object {}", w.triangle, w.object);
     const float length = glm::dot(w.direction, w.direction);
@@ -109,7 +109,7 @@ std::optional<std::string> find_defect(const Verification& v, const City& city) 
 std::string describe_verification(const Verification& v, const PvsFile& file) {
   std::string out =
       fmt::format("  verified   {} {}: {} of {} cells, {} rays, seed {}\n", v.when,
-                  v.passed() ? "passed" : "FAILED", v.cells.size(), file.city.cells.size(), v.rays(), v.seed);
+                  v.passed() ? "passed" : "FAILED", v.cells.size(), file.cells, v.rays(), v.seed);
   out += fmt::format("             false invisible: {} objects, {} triangles; narrow gaps: {} objects\n",
                      v.false_invisible_objects(), v.false_invisible_triangles(), v.narrow_gap_objects());
   out += fmt::format(

@@ -66,8 +66,9 @@ struct Verification {
 void store_verification(const std::filesystem::path& file, const PvsFile& checked,
                         const Verification& verification);
 
-/// What does not fit the city: "/verification/cells/cell: what".
-std::optional<std::string> find_defect(const Verification& verification, const City& city);
+/// What does not fit a city of so many cells and these objects: "/verification/cells/cell: what".
+std::optional<std::string> find_defect(const Verification& verification, size_t cells,
+                                       const std::vector<Object>& objects);
 
 /// Lines for people (`veduta info`).
 std::string describe_verification(const Verification& verification, const PvsFile& file);

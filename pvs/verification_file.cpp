@@ -173,7 +173,7 @@ ColumnDigests stored_digests(const Input& input) {
 
 void store_verification(const std::filesystem::path& name, const PvsFile& checked, const Verification& v) {
   const std::filesystem::path file = std::filesystem::weakly_canonical(name);  // a link goes on leading to it
-  if (const auto defect = find_defect(v, checked.city))
+  if (const auto defect = find_defect(v, checked.city.cells.size(), checked.city.scene.objects))
     throw Error(ExitStatus::defect, fmt::format("{}: {}; a defect of the verification, please report it",
                                                 name.string(), *defect));
   RootAttributes root;

@@ -64,7 +64,8 @@ std::vector<Witness> read_report(const PvsFile& file, const std::string& name) {
   } catch (const std::invalid_argument& error) {
     throw bad_input(name, "file", std::string("is no report of veduta verify --json: ") + error.what());
   }
-  if (const auto defect = find_defect(found, file.city)) throw bad_input(name, "examples", *defect);
+  if (const auto defect = find_defect(found, file.city.cells.size(), file.city.scene.objects))
+    throw bad_input(name, "examples", *defect);
   return found.witnesses;
 }
 

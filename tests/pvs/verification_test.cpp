@@ -109,12 +109,12 @@ TEST(Verification, BelongsToItsContent) {
 
 TEST(Verification, NumbersFitTheCity) {
   const City city = test::small_city();
-  EXPECT_EQ(find_defect(test::small_verification(), city), std::nullopt);
-  EXPECT_EQ(find_defect(Verification{}, city), std::nullopt);
+  EXPECT_EQ(find_defect(test::small_verification(), city.cells.size(), city.scene.objects), std::nullopt);
+  EXPECT_EQ(find_defect(Verification{}, city.cells.size(), city.scene.objects), std::nullopt);
   const auto refused = [&](const char* place, const std::function<void(Verification&)>& change) {
     Verification v = test::small_verification();
     change(v);
-    const auto defect = find_defect(v, city);
+    const auto defect = find_defect(v, city.cells.size(), city.scene.objects);
     ASSERT_TRUE(defect) << place;
     EXPECT_EQ(defect->rfind(place, 0), 0u) << *defect;
     EXPECT_NE(defect->find(": "), std::string::npos) << *defect;
