@@ -109,7 +109,7 @@ std::optional<std::string> find_defect(const Verification& v, size_t cells, cons
 std::string describe_verification(const Verification& v, const PvsFile& file) {
   std::string out =
       fmt::format("  verified   {} {}: {} of {} cells, {} rays, seed {}\n", v.when,
-                  v.passed() ? "passed" : "FAILED", v.cells.size(), file.cells, v.rays(), v.seed);
+                  v.passed() ? "passed" : "FAILED", v.cells.size(), file.city.cells.size(), v.rays(), v.seed);
   out += fmt::format("             false invisible: {} objects, {} triangles; narrow gaps: {} objects\n",
                      v.false_invisible_objects(), v.false_invisible_triangles(), v.narrow_gap_objects());
   out += fmt::format(

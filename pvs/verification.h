@@ -10,7 +10,7 @@
 
 namespace veduta {
 
-struct City;
+struct Object;
 struct PvsFile;
 
 /// Of one cell that was checked. Counts are of the cell's row and of what rays met.
