@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "scene/error.h"
+#include "scene/text.h"
 
 namespace veduta {
 namespace {
@@ -33,7 +34,7 @@ std::string parse_pose(std::string_view line, Pose& pose) {
     const std::string_view word = trimmed(line.substr(0, comma));
     const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value[i]);
     if (fault != std::errc() || end != word.data() + word.size() || !std::isfinite(value[i]))
-      return fmt::format("\"{}\" is not a finite number", word);
+      return fmt::format("\"{}\" is not a finite number", printable(word, 40));
     line.remove_prefix(comma == std::string_view::npos ? line.size() : comma + 1);
   }
   if (std::abs(value[4]) > 90) return fmt::format("pitch_deg is {}, not in -90..90", value[4]);
