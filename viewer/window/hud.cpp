@@ -32,14 +32,6 @@ constexpr const char* fonts[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.tt
                                  "/usr/share/fonts/TTF/DejaVuSans.ttf",
                                  "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf"};
 
-// The picture as it is looked at: a squeezed one is laid out as wide or as high as it will be seen.
-glm::vec2 seen_size(StereoMode mode, const glm::uvec2& picture) {
-  const glm::vec2 size(picture);
-  if (mode == StereoMode::side_by_side_half) return {2 * size.x, size.y};
-  if (mode == StereoMode::top_bottom_half) return {size.x, 2 * size.y};
-  return size;
-}
-
 float letter_height(const glm::vec2& size) {
   return std::clamp(std::round(std::min(size.y / 48, size.x / 44)), 10.0f, 96.0f);
 }
@@ -70,7 +62,8 @@ struct Hud::State {
 
   ImGuiContext* context = nullptr;
   float letter = 0;
-  bool typing = false;  ///< is the search open?
+  std::optional<double> time_s;  ///< of the last layout
+  bool typing = false;           ///< is the search open?
   bool parallax_said = true;
   std::vector<Message> messages;
   RecentFrames recent;
@@ -154,18 +147,19 @@ Hud::~Hud() {
 }
 
 void Hud::layout(const ViewState& state, const FrameStats& last, const CityStream::Status& stream,
-                 const PvsIndex& index, const glm::uvec2& picture, double elapsed_s) {
+                 const PvsIndex& index, const glm::uvec2& picture, double time_s) {
   State& s = *state_;
-  const HudScale scale{letter_height(seen_size(state.stereo, picture)), seen_size(state.stereo, picture)};
+  const HudScale scale{letter_height(glm::vec2(picture)), glm::vec2(picture)};
+  const double elapsed_s = s.time_s ? std::max(0.0, time_s - *s.time_s) : 0;
+  if (s.time_s) s.recent.add(last.ms, elapsed_s);
+  s.time_s = time_s;
   s.use_letters(scale.letter);
-  s.recent.add(last.ms, elapsed_s);
   s.warn_of_parallax(state);
   s.age_messages(elapsed_s);
 
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {scale.size.x, scale.size.y};
-  io.DisplayFramebufferScale = {static_cast<float>(picture.x) / scale.size.x,
-                                static_cast<float>(picture.y) / scale.size.y};
+  io.DisplayFramebufferScale = {1, 1};
   io.DeltaTime = static_cast<float>(std::clamp(elapsed_s, 1e-4, 1.0));
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();

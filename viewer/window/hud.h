@@ -24,10 +24,10 @@ class Hud {
   Hud& operator=(const Hud&) = delete;
 
   /// Lays out the texts of a frame for one eye's picture of this size, in pixels; letters grow with its
-  /// height. `last`: figures of the frame before; `elapsed_s`: since then, 0 without a clock. Nothing is laid
-  /// out when the state shows no HUD, help, search, map or cells and nothing was said.
+  /// height. `last`: figures of the frame before; `time_s`: of any clock. Nothing is laid out when the state
+  /// shows no HUD, help, search, map or cells and nothing was said.
   void layout(const ViewState& state, const FrameStats& last, const CityStream::Status& stream,
-              const PvsIndex& index, const glm::uvec2& picture, double elapsed_s);
+              const PvsIndex& index, const glm::uvec2& picture, double time_s);
   /// Draws them into the current frame buffer, whose bytes are sRGB: once for each eye.
   void draw();
 

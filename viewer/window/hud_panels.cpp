@@ -101,11 +101,12 @@ class Figures {
         fmt::format("{}{}", pvs[static_cast<size_t>(f_.state.pvs)], all ? "; everything is drawn here" : ""),
         all ? warning : plain);
     row("Culling", culling[static_cast<size_t>(f_.state.culling)]);
-    const CityStream::Status& s = f_.stream;
-    const bool loading = f_.last.waiting || s.pages_here < s.pages_wanted;
+    const CityStream::Status& city = f_.stream;
+    const bool loading = f_.last.waiting || city.pages_missing > 0;
     row("City",
-        fmt::format("{} of {} pages, {:.0f} MB{}", grouped(s.pages_here), grouped(s.pages_wanted),
-                    static_cast<double>(s.bytes_here) / 1e6, f_.last.waiting ? "; loading" : ""),
+        fmt::format("{} pages, {:.0f} MB{}", grouped(city.pages_here),
+                    static_cast<double>(city.bytes_here) / 1e6,
+                    loading ? fmt::format("; {} to come", grouped(city.pages_missing)) : ""),
         loading ? warning : plain);
   }
 
@@ -114,8 +115,9 @@ class Figures {
     const auto words = stereo_mode_words();
     row("Stereo", fmt::format("{}{}", words[static_cast<size_t>(f_.state.stereo)],
                               f_.state.swap_eyes ? ", eyes swapped" : ""));
+    if (f_.state.stereo == StereoMode::mono) return;
     row("Eyes",
-        fmt::format("{:.0f} mm apart, screen at {:.2f} m", optics.iod_m * 1000, optics.screen_distance_m));
+        fmt::format("{:.3g} mm apart, screen at {:.3g} m", optics.iod_m * 1000, optics.screen_distance_m));
     const bool too_far = uncomfortable(f_.state);
     row("Parallax",
         fmt::format("{:.2f}° at infinity{}", parallax_at_infinity_deg(optics),

@@ -15,7 +15,7 @@
 
 namespace veduta {
 
-/// Lengths of a layout, in pixels of the picture as it is looked at.
+/// Lengths of a layout, in pixels.
 struct HudScale {
   float letter = 15;          ///< height of the letters
   glm::vec2 size{1280, 720};  ///< of the picture
