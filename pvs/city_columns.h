@@ -15,6 +15,12 @@ enum class CityParts { all, to_bake };
 /// digests are those that they should have. Digests are compared, relations not yet.
 City read_city_columns(const hdf5::Input& input, ColumnDigests& digests, CityParts parts = CityParts::all);
 
+/// Of it, the objects without their geometry. \return the bounds of each.
+std::vector<Box> read_object_columns(const hdf5::Input& input, City& city, ColumnDigests& digests);
+/// Of it, navigation and cells.
+void read_place_columns(const hdf5::Input& input, City& city, ColumnDigests& digests,
+                        CityParts parts = CityParts::all);
+
 /// Reads where the lattices of a navigation lie, and nothing of what is in them.
 void read_lattices(const hdf5::Input& input, Navigation& navigation);
 

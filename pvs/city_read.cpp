@@ -47,17 +47,7 @@ void read_scene(const Input& input, City& city, ColumnDigests& digests) {
   scene.triangles = read_rows<glm::uvec3>(input, column::triangles, digests);
   scene.material = read_rows<Material>(input, column::material, digests);
   city.triangle_slices = read_rows<TriangleSlices>(input, column::triangle_slice, digests);
-  read_names(input, column::object_name, scene.objects, digests);
-  read_members<Kind>(
-      input, column::object_kind, scene.objects, [](Object& o, Kind kind) { o.kind = kind; }, digests);
-  const auto begin = read_rows<uint64_t>(input, column::object_begin, digests);
-  if (begin.size() != scene.objects.size() + 1 || begin.front() != 0)
-    input.fail(column::object_begin.path, "not one more than there are objects, from 0 on");
-  for (size_t i = 0; i < scene.objects.size(); ++i) {
-    scene.objects[i].triangle_begin = begin[i];
-    scene.objects[i].triangle_end = begin[i + 1];
-  }
-  city.slices = read_rows<SliceCounts>(input, column::object_slices, digests);
+  read_object_columns(input, city, digests);
   read_names(input, column::part_name, scene.parts, digests);
   read_members<uint32_t>(
       input, column::part_object, scene.parts, [](Part& p, uint32_t object) { p.object = object; }, digests);
@@ -119,14 +109,33 @@ void read_lattices(const Input& input, Navigation& navigation) {
   navigation.ground.step_m = input.floats("/navigation/ground", "step_m", 1)[0];
 }
 
+std::vector<Box> read_object_columns(const Input& input, City& city, ColumnDigests& digests) {
+  std::vector<Object>& objects = city.scene.objects;
+  read_names(input, column::object_name, objects, digests);
+  read_members<Kind>(
+      input, column::object_kind, objects, [](Object& o, Kind kind) { o.kind = kind; }, digests);
+  const auto begin = read_rows<uint64_t>(input, column::object_begin, digests);
+  if (begin.size() != objects.size() + 1 || begin.front() != 0)
+    input.fail(column::object_begin.path, "not one more than there are objects, from 0 on");
+  for (size_t i = 0; i < objects.size(); ++i) {
+    objects[i].triangle_begin = begin[i];
+    objects[i].triangle_end = begin[i + 1];
+  }
+  city.slices = read_rows<SliceCounts>(input, column::object_slices, digests);
+  std::vector<Box> bounds = read_rows<Box>(input, column::object_bounds, digests);
+  if (bounds.size() != objects.size()) input.fail(column::object_bounds.path, "not one for each object");
+  return bounds;
+}
+
+void read_place_columns(const Input& input, City& city, ColumnDigests& digests, CityParts parts) {
+  read_navigation(input, parts, city.navigation, digests);
+  city.cells = read_rows<Box>(input, column::cell_bounds, digests);
+}
+
 City read_city_columns(const Input& input, ColumnDigests& digests, CityParts parts) {
   City city;
   read_scene(input, city, digests);
-  read_navigation(input, parts, city.navigation, digests);
-  city.cells = read_rows<Box>(input, column::cell_bounds, digests);
-  const auto bounds = read_rows<Box>(input, column::object_bounds, digests);
-  if (bounds.size() != city.scene.objects.size())
-    input.fail(column::object_bounds.path, "not one for each object");
+  read_place_columns(input, city, digests, parts);
   return city;
 }
 

@@ -92,24 +92,32 @@ void ColumnReader::check_chunk(uint64_t first) const {
     input_.fail(column_.path, "damaged: its chunk index does not hold; get the file again, or bake again");
 }
 
+uint64_t ColumnReader::block_rows() const {
+  const uint64_t fit = chunk_bytes / std::max<size_t>(1, row_bytes_);
+  return std::max<uint64_t>(1, fit / chunk_rows_) * chunk_rows_;
+}
+
+void ColumnReader::read_block(uint64_t first, uint64_t rows, std::byte* out) const {
+  const hsize_t start[2] = {first, 0};
+  const hsize_t count[2] = {rows, columns_};
+  for (uint64_t chunk = first; chunk < first + rows; chunk += chunk_rows_) check_chunk(chunk);
+  const Handle space(H5Dget_space(dataset_.get()), H5Sclose);
+  const Handle memory(H5Screate_simple(rank(), count, nullptr), H5Sclose);
+  if (H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start, nullptr, count, nullptr) < 0 ||
+      H5Dread(dataset_.get(), type_.get(), memory.get(), space.get(), H5P_DEFAULT, out) < 0)
+    input_.fail(column_.path, "damaged: a checksum does not hold; get the file again, or bake again");
+}
+
 std::string ColumnReader::read(
     const std::function<void(const std::byte* rows, uint64_t first, size_t count)>& visit) const {
-  // Whole chunks at a time: none is unpacked twice.
-  const uint64_t fit = chunk_bytes / std::max<size_t>(1, row_bytes_);
-  const uint64_t block = std::max<uint64_t>(1, fit / chunk_rows_) * chunk_rows_;
+  const uint64_t block = block_rows();
   Digest digest;
   std::vector<std::byte> bytes(std::min(block, rows_) * row_bytes_);
-  const Handle space(H5Dget_space(dataset_.get()), H5Sclose);
   for (uint64_t first = 0; row_bytes_ > 0 && first < rows_; first += block) {
-    const hsize_t start[2] = {first, 0};
-    const hsize_t count[2] = {std::min(block, rows_ - first), columns_};
-    for (uint64_t chunk = first; chunk < first + count[0]; chunk += chunk_rows_) check_chunk(chunk);
-    const Handle memory(H5Screate_simple(rank(), count, nullptr), H5Sclose);
-    if (H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start, nullptr, count, nullptr) < 0 ||
-        H5Dread(dataset_.get(), type_.get(), memory.get(), space.get(), H5P_DEFAULT, bytes.data()) < 0)
-      input_.fail(column_.path, "damaged: a checksum does not hold; get the file again, or bake again");
-    digest.update(bytes.data(), count[0] * row_bytes_);
-    visit(bytes.data(), first, count[0]);
+    const uint64_t count = std::min(block, rows_ - first);
+    read_block(first, count, bytes.data());
+    digest.update(bytes.data(), count * row_bytes_);
+    visit(bytes.data(), first, count);
   }
   const uint64_t extent[2] = {rows_, columns_};
   digest.update(extent, rank() == 1 ? 8 : 16);

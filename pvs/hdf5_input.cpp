@@ -46,6 +46,12 @@ void Input::fail(const std::string& place, const std::string& what) const {
   throw Error(ExitStatus::bad_input, fmt::format("{}: {}: {}", path_.string(), place, what));
 }
 
+void Input::refuse(const std::optional<std::string>& defect) const {
+  if (!defect) return;
+  const size_t colon = defect->find(": ");
+  fail(defect->substr(0, colon), defect->substr(colon + 2));
+}
+
 bool Input::has(const char* path) const {
   const htri_t found = H5Lexists(file_.get(), path, H5P_DEFAULT);
   if (found < 0) fail(path, "damaged");

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -32,6 +33,8 @@ class Input {
   std::array<double, 3> doubles(const char* object, const char* name) const;
 
   [[noreturn]] void fail(const std::string& place, const std::string& what) const;
+  /// Fails with "DATASET: what", if there is such a defect (pvs/pvs_check.h).
+  void refuse(const std::optional<std::string>& defect) const;
   uint64_t file_bytes() const { return file_bytes_; }
   hid_t id() const { return file_.get(); }
 
@@ -59,6 +62,12 @@ class ColumnReader {
   uint64_t columns() const { return columns_; }
   size_t row_bytes() const { return row_bytes_; }
   uint64_t stored_bytes() const { return stored_bytes_; }
+
+  /// Rows of a block: whole chunks of about chunk_bytes, so that none is unpacked twice.
+  uint64_t block_rows() const;
+  /// Reads rows [first, first + count), `first` a multiple of block_rows() and count at most that. Chunks and
+  /// their checksums are checked; digests are of whole datasets.
+  void read_block(uint64_t first, uint64_t count, std::byte* out) const;
 
   /// Hands out all rows in order, then compares the digest. \return it. May throw after `visit` has seen
   /// wrong rows.

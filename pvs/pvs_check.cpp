@@ -70,6 +70,13 @@ Defect check_geometry(const Scene& scene) {
   return {};
 }
 
+Defect check_object(const Object& object, SliceCounts n, size_t number) {
+  if (object.kind > Kind::other) return fmt::format("/scene/objects/kind: object {}: unknown kind", number);
+  if (n.x < 1 || n.y < 1 || n.z < 1 || n.x > 127 || n.y > 127 || n.z > 127)
+    return fmt::format("/scene/objects/slices: object {}: not 1 to 127", number);
+  return {};
+}
+
 Defect check_objects(const City& city) {
   const Scene& scene = city.scene;
   uint64_t end = 0, own = 0;
@@ -84,10 +91,8 @@ Defect check_objects(const City& city) {
       return fmt::format("/scene/objects/triangle_begin: object {} does not follow the one before it", i);
     end = object.triangle_end;
     if (instance == nullptr) own = end;
-    if (object.kind > Kind::other) return fmt::format("/scene/objects/kind: object {}: unknown kind", i);
     const SliceCounts n = city.slices[i];
-    if (n.x < 1 || n.y < 1 || n.z < 1 || n.x > 127 || n.y > 127 || n.z > 127)
-      return fmt::format("/scene/objects/slices: object {}: not 1 to 127", i);
+    if (Defect defect = check_object(object, n, i)) return defect;
     const auto within = [](uint8_t first, uint8_t last, uint8_t count) {
       return first >= 1 && first <= last && last <= count;
     };
@@ -168,13 +173,6 @@ Defect check_cells(const std::vector<Box>& cells) {
   return {};
 }
 
-bool index_within(VisibilityIndex index, SliceCounts n) {
-  // x = +k with 1 <= k <= n; x = -k means slices from k+1 on, 1 <= k < n; z as x > 0.
-  const auto side = [](int value, int count) { return value > 0 ? value <= count : -value < count; };
-  return index.z >= 0 && index.z <= n.z && side(index.x, n.x) && side(index.y, n.y) &&
-         (index.x == 0 || index.y == 0) && !index.nothing();
-}
-
 }  // namespace
 
 Defect find_scene_defect(const City& city) {
@@ -195,41 +193,20 @@ Defect find_defect(const City& city) {
   return find_place_defect(city);
 }
 
-Defect find_defect(const PvsEntry* first, const PvsEntry* last, const std::vector<SliceCounts>& slices) {
-  for (const PvsEntry* entry = first; entry != last; ++entry) {
-    if (entry->object >= slices.size()) return fmt::format("object {} of {}", entry->object, slices.size());
-    if (entry != first && entry->object <= (entry - 1)->object)
-      return fmt::format("object {} is not in ascending order", entry->object);
-    if (!index_within(entry->index, slices[entry->object]))
-      return fmt::format("object {}: the index {}, {}, {} is outside of its slices", entry->object,
-                         int{entry->index.x}, int{entry->index.y}, int{entry->index.z});
+Defect find_object_defect(const std::vector<Object>& objects, const std::vector<SliceCounts>& slices,
+                          uint64_t triangles) {
+  if (objects.size() > UINT32_MAX) return "/scene/objects: more than 2^32 - 1";
+  if (slices.size() != objects.size()) return "/scene/objects/slices: not one for each object";
+  uint64_t end = 0;
+  for (size_t i = 0; i < objects.size(); ++i) {
+    if (objects[i].triangle_begin != end || objects[i].triangle_end < end)
+      return fmt::format("/scene/objects/triangle_begin: object {} does not follow the one before it", i);
+    end = objects[i].triangle_end;
+    if (Defect defect = check_object(objects[i], slices[i], i)) return defect;
   }
-  return {};
-}
-
-Defect find_row_defect(const PvsFile& file) {
-  const size_t cells = file.city.cells.size();
-  if (file.cell_row.size() != cells) return "/cells/row: not one for each cell";
-  if (file.cell_status.size() != cells) return "/cells/status: not one for each cell";
-  if (file.bake_us.size() != cells) return "/cells/bake_us: not one for each cell";
-  if (file.overestimate.size() != cells) return "/cells/overestimate: not one for each cell";
-  if (file.row_begin.empty() || file.row_begin.front() != 0 || file.row_begin.back() != file.entries.size())
-    return "/pvs/begin: does not span the entries";
-  const size_t rows = file.row_begin.size() - 1;
-  for (size_t c = 0; c < cells; ++c) {
-    if (file.cell_row[c] >= rows) return fmt::format("/cells/row: cell {} names a row that is not there", c);
-    if (file.cell_status[c] > CellStatus::all_visible)
-      return fmt::format("/cells/status: cell {}: unknown status", c);
-    if (!is_overestimate(file.overestimate[c]))
-      return fmt::format("/cells/overestimate: cell {}: neither 0 nor at least 1", c);
-  }
-  for (size_t r = 0; r < rows; ++r)
-    if (file.row_begin[r] > file.row_begin[r + 1] || file.row_begin[r + 1] > file.entries.size())
-      return fmt::format("/pvs/begin: row {} ends before it begins", r);
-  for (size_t r = 0; r < rows; ++r)
-    if (auto defect = find_defect(file.entries.data() + file.row_begin[r],
-                                  file.entries.data() + file.row_begin[r + 1], file.city.slices))
-      return fmt::format("/pvs/object: row {}: {}", r, *defect);
+  if (end != triangles)
+    return fmt::format("/scene/objects/triangle_begin: {} of {} triangles belong to an object", end,
+                       triangles);
   return {};
 }
 

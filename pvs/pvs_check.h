@@ -8,6 +8,8 @@
 
 namespace veduta {
 
+struct PvsIndex;
+
 /// Every relation between the arrays of a city. \return "DATASET: what" for the first that does not hold.
 std::optional<std::string> find_defect(const City& city);
 /// Those of the scene and its slices; those of cells and navigation.
@@ -20,5 +22,11 @@ std::optional<std::string> find_defect(const PvsEntry* first, const PvsEntry* la
 
 /// Rows against cells and entries against objects, for a file. \return "DATASET: what".
 std::optional<std::string> find_row_defect(const PvsFile& file);
+
+/// Of a file that is read piece by piece: objects against the number of triangles, rows against cells and the
+/// number of entries. \return "DATASET: what".
+std::optional<std::string> find_object_defect(const std::vector<Object>& objects,
+                                              const std::vector<SliceCounts>& slices, uint64_t triangles);
+std::optional<std::string> find_row_defect(const PvsIndex& index, uint64_t entries);
 
 }  // namespace veduta

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "pvs/cell_columns.h"
 #include "pvs/city_columns.h"
 #include "pvs/pvs_check.h"
 #include "pvs/verification_columns.h"
@@ -28,17 +29,11 @@ void read_entries(const Input& input, std::vector<PvsEntry>& entries, ColumnDige
   });
 }
 
-void refuse(const Input& input, const std::optional<std::string>& defect) {
-  if (!defect) return;
-  const size_t colon = defect->find(": ");
-  input.fail(defect->substr(0, colon), defect->substr(colon + 2));
-}
-
 /// The city with its root, every relation and the content digest checked.
 void finish_city(const Input& input, const RootAttributes& root, const ColumnDigests& digests, City& city) {
   city.scene.crs = root.crs;
   city.scene.origin = root.origin;
-  refuse(input, find_defect(city));
+  input.refuse(find_defect(city));
   if (content_digest(city, root.header.conservative, digests) != root.content_digest)
     input.fail("/@content_digest", "does not hold; get the file again, or bake again");
 }
@@ -62,18 +57,13 @@ PvsFile read_pvs(const std::filesystem::path& path) {
   file.header = root.header;
   file.content_digest = root.content_digest;
   file.city = read_city_columns(input, digests);
-  digests[column::cell_row.path] = ColumnReader(input, column::cell_row).read_into(file.cell_row);
-  digests[column::cell_bake_us.path] = ColumnReader(input, column::cell_bake_us).read_into(file.bake_us);
-  digests[column::cell_status.path] = ColumnReader(input, column::cell_status).read_into(file.cell_status);
-  digests[column::cell_overestimate.path] =
-      ColumnReader(input, column::cell_overestimate).read_into(file.overestimate);
-  digests[column::pvs_begin.path] = ColumnReader(input, column::pvs_begin).read_into(file.row_begin);
+  read_cell_columns(input, file, digests);
   read_entries(input, file.entries, digests);
   finish_city(input, root, digests, file.city);
-  refuse(input, find_row_defect(file));
+  input.refuse(find_row_defect(file));
   if (input.has(verification_group)) {
     file.verification = read_verification(input, root.content_digest);
-    refuse(input, find_defect(*file.verification, file.city.cells.size(), file.city.scene.objects));
+    input.refuse(find_defect(*file.verification, file.city.cells.size(), file.city.scene.objects));
   }
   file.index_cells();
   return file;

@@ -1,6 +1,7 @@
 // A PVS file read piece by piece: for cities that are larger than memory, and for who wants one row of many.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -45,8 +46,11 @@ struct PvsIndex {
 };
 
 /// An open file. Opening reads and checks the index, digests included; rows and geometry are checked as they
-/// are read: the checksum of every chunk, and every number in range. HDF5 is not safe with threads: a process
-/// uses all of its streams and files from one thread at a time.
+/// are read: the checksum of every chunk, every number in range, and triangles against the bounds of their
+/// object. HDF5 is not safe with threads: a process uses all of its streams and files from one thread at a
+/// time. Some MiB of unpacked chunks are kept, so that neighbouring rows and objects are cheap to read one
+/// after the other. What only read_pvs notices, which compares the digests of rows and geometry: a chunk
+/// index that leads, unharmed, to another chunk of the same size.
 class PvsStream {
  public:
   /// \throw Error as read_pvs.
@@ -57,12 +61,13 @@ class PvsStream {
 
   const PvsIndex& index() const { return index_; }
 
-  /// Entries of a row (not: of a cell; see PvsIndex::cell_row).
+  /// Entries of a row (not: of a cell; see PvsIndex::cell_row), one of 0 to R-1.
   /// \throw Error(bad_input) when it is damaged, naming the dataset.
   PvsRow read_row(uint32_t row) const;
 
-  /// Objects [first, last) as a city of their own: scene (vertices, triangles, material, objects with
-  /// triangle numbers from 0; no parts), slices and triangle_slices. No cells, no navigation.
+  /// Objects [first, last), last <= N, as a city of their own: scene (vertices that are used, in the order of
+  /// the file, triangles, material, objects with triangle numbers from 0; no parts), slices and
+  /// triangle_slices. No cells, no navigation. Memory and time are those of these objects.
   /// \throw Error(bad_input) when it is damaged, naming the dataset.
   City read_objects(uint32_t first, uint32_t last) const;
 

@@ -1,0 +1,144 @@
+#include "pvs/pvs_stream.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "pvs/cell_columns.h"
+#include "pvs/city_columns.h"
+#include "pvs/hdf5_window.h"
+#include "pvs/pvs_check.h"
+#include "pvs/verification_columns.h"
+#include "pvs/vertex_numbers.h"
+
+namespace veduta {
+
+using hdf5::ColumnReader;
+using hdf5::ColumnWindow;
+using hdf5::Input;
+
+struct PvsStream::Open {
+  explicit Open(const std::filesystem::path& file) : input(file) {}
+
+  /// \throw Error(bad_input) where datasets that belong together are of different lengths.
+  void same_rows(const ColumnWindow& one, const ColumnWindow& other, const Column& place) const {
+    if (one.reader().rows() != other.reader().rows())
+      input.fail(place.path, "not as long as those beside it");
+  }
+
+  Input input;
+  RootAttributes root = read_root(input, pvs_format);  // before datasets, of which another version has others
+  ColumnWindow vertices{input, column::vertices};
+  ColumnWindow triangles{input, column::triangles};
+  ColumnWindow material{input, column::material};
+  ColumnWindow triangle_slices{input, column::triangle_slice};
+  ColumnWindow entry_object{input, column::pvs_object};
+  ColumnWindow entry_index{input, column::pvs_index};
+};
+
+namespace {
+
+/// What is not looked at as the file is opened: its digests are taken as they are stated. That they are the
+/// file's own is what the content digest says.
+void state_the_rest(const Input& input, ColumnDigests& digests) {
+  for (const Column& column :
+       {column::vertices, column::triangles, column::material, column::triangle_slice, column::part_name,
+        column::part_object, column::part_begin, column::part_end, column::pvs_object, column::pvs_index})
+    digests[column.path] = ColumnReader(input, column).stated_digest();
+}
+
+}  // namespace
+
+PvsStream::PvsStream(const std::filesystem::path& file) : open_(std::make_unique<Open>(file)) {
+  const Input& input = open_->input;
+  const RootAttributes& root = open_->root;
+  index_.header = root.header;
+  index_.crs = root.crs;
+  index_.origin = root.origin;
+  index_.content_digest = root.content_digest;
+
+  ColumnDigests digests;
+  City city;
+  city.scene.crs = root.crs;
+  city.scene.origin = root.origin;
+  index_.bounds = read_object_columns(input, city, digests);
+  read_place_columns(input, city, digests);
+  read_cell_columns(input, index_, digests);
+  state_the_rest(input, digests);
+  if (content_digest(city, root.header.conservative, digests) != root.content_digest)
+    input.fail("/@content_digest", "does not hold; get the file again, or bake again");
+
+  open_->same_rows(open_->triangles, open_->material, column::material);
+  open_->same_rows(open_->triangles, open_->triangle_slices, column::triangle_slice);
+  open_->same_rows(open_->entry_object, open_->entry_index, column::pvs_index);
+  input.refuse(find_object_defect(city.scene.objects, city.slices, open_->triangles.reader().rows()));
+  input.refuse(find_place_defect(city));
+  index_.objects = std::move(city.scene.objects);
+  index_.slices = std::move(city.slices);
+  index_.cells = std::move(city.cells);
+  index_.navigation = std::move(city.navigation);
+  input.refuse(find_row_defect(index_, open_->entry_object.reader().rows()));
+  if (input.has(verification_group)) {
+    index_.verification = read_verification(input, root.content_digest);
+    input.refuse(find_defect(*index_.verification, index_.cells.size(), index_.objects));
+  }
+  index_.grid = CellGrid(index_.cells);
+}
+
+PvsStream::~PvsStream() = default;
+PvsStream::PvsStream(PvsStream&&) noexcept = default;
+PvsStream& PvsStream::operator=(PvsStream&&) noexcept = default;
+
+PvsRow PvsStream::read_row(uint32_t row) const {
+  const uint64_t first = index_.row_begin[row], count = index_.row_begin[row + 1] - first;
+  if (count > index_.objects.size())
+    open_->input.fail(column::pvs_begin.path, fmt::format("row {} lists more than there are objects", row));
+  const auto objects = open_->entry_object.read<uint32_t>(first, count);
+  const auto indices = open_->entry_index.read<VisibilityIndex>(first, count);
+  PvsRow entries(count);
+  for (size_t i = 0; i < count; ++i) entries[i] = {objects[i], indices[i]};
+  if (const auto defect = find_defect(entries.data(), entries.data() + count, index_.slices))
+    open_->input.fail(column::pvs_object.path, fmt::format("row {}: {}", row, *defect));
+  return entries;
+}
+
+City PvsStream::read_objects(uint32_t first, uint32_t last) const {
+  const Input& input = open_->input;
+  City city;
+  Scene& scene = city.scene;
+  scene.crs = index_.crs;
+  scene.origin = index_.origin;
+  if (first >= last) return city;
+  scene.objects.assign(index_.objects.begin() + first, index_.objects.begin() + last);
+  city.slices.assign(index_.slices.begin() + first, index_.slices.begin() + last);
+  const uint64_t begin = scene.objects.front().triangle_begin;
+  const uint64_t count = scene.objects.back().triangle_end - begin;
+  for (Object& object : scene.objects) object.triangle_begin -= begin, object.triangle_end -= begin;
+  scene.triangles = open_->triangles.read<glm::uvec3>(begin, count);
+  scene.material = open_->material.read<Material>(begin, count);
+  city.triangle_slices = open_->triangle_slices.read<TriangleSlices>(begin, count);
+
+  const uint64_t vertices = open_->vertices.reader().rows();
+  for (size_t t = 0; t < count; ++t)
+    if (std::max({scene.triangles[t].x, scene.triangles[t].y, scene.triangles[t].z}) >= vertices)
+      input.fail(column::triangles.path,
+                 fmt::format("triangle {} names a vertex that is not there", begin + t));
+  const std::vector<VertexRun> runs = number_from_zero(scene.triangles);
+  for (const VertexRun& run : runs) scene.vertices.resize(scene.vertices.size() + run.count);
+  glm::vec3* out = scene.vertices.data();
+  for (const VertexRun& run : runs) {
+    open_->vertices.read(run.first, run.count, out);
+    out += run.count;
+  }
+  input.refuse(find_scene_defect(city));
+  // The index of a chunked dataset has no checksum of its own: were a chunk taken for another, the bounds,
+  // whose digest was compared, would not be those of the triangles.
+  for (uint32_t i = first; i < last; ++i)
+    if (scene.bounds(i - first) != index_.bounds[i])
+      input.fail(column::vertices.path,
+                 fmt::format("object {} lies outside of its bounds; get the file again", i));
+  return city;
+}
+
+}  // namespace veduta

@@ -1,0 +1,71 @@
+// What must hold between cells, rows and entries.
+#include <fmt/format.h>
+
+#include "pvs/pvs_check.h"
+#include "pvs/pvs_stream.h"
+
+namespace veduta {
+
+namespace {
+
+using Defect = std::optional<std::string>;
+
+bool index_within(VisibilityIndex index, SliceCounts n) {
+  // x = +k with 1 <= k <= n; x = -k means slices from k+1 on, 1 <= k < n; z as x > 0.
+  const auto side = [](int value, int count) { return value > 0 ? value <= count : -value < count; };
+  return index.z >= 0 && index.z <= n.z && side(index.x, n.x) && side(index.y, n.y) &&
+         (index.x == 0 || index.y == 0) && !index.nothing();
+}
+
+/// Of a PvsFile or a PvsIndex: all but the entries.
+template <typename File>
+Defect check_cells(const File& of, size_t cells, uint64_t entries) {
+  if (of.cell_row.size() != cells) return "/cells/row: not one for each cell";
+  if (of.cell_status.size() != cells) return "/cells/status: not one for each cell";
+  if (of.bake_us.size() != cells) return "/cells/bake_us: not one for each cell";
+  if (of.overestimate.size() != cells) return "/cells/overestimate: not one for each cell";
+  if (of.row_begin.empty() || of.row_begin.front() != 0 || of.row_begin.back() != entries)
+    return "/pvs/begin: does not span the entries";
+  const size_t rows = of.row_begin.size() - 1;
+  for (size_t c = 0; c < cells; ++c) {
+    if (of.cell_row[c] >= rows) return fmt::format("/cells/row: cell {} names a row that is not there", c);
+    if (of.cell_status[c] > CellStatus::all_visible)
+      return fmt::format("/cells/status: cell {}: unknown status", c);
+    if (!is_overestimate(of.overestimate[c]))
+      return fmt::format("/cells/overestimate: cell {}: neither 0 nor at least 1", c);
+  }
+  for (size_t r = 0; r < rows; ++r)
+    if (of.row_begin[r] > of.row_begin[r + 1] || of.row_begin[r + 1] > entries)
+      return fmt::format("/pvs/begin: row {} ends before it begins", r);
+  return {};
+}
+
+}  // namespace
+
+Defect find_defect(const PvsEntry* first, const PvsEntry* last, const std::vector<SliceCounts>& slices) {
+  for (const PvsEntry* entry = first; entry != last; ++entry) {
+    if (entry->object >= slices.size()) return fmt::format("object {} of {}", entry->object, slices.size());
+    if (entry != first && entry->object <= (entry - 1)->object)
+      return fmt::format("object {} is not in ascending order", entry->object);
+    if (!index_within(entry->index, slices[entry->object]))
+      return fmt::format("object {}: the index {}, {}, {} is outside of its slices", entry->object,
+                         int{entry->index.x}, int{entry->index.y}, int{entry->index.z});
+  }
+  return {};
+}
+
+Defect find_row_defect(const PvsFile& file) {
+  if (Defect defect = check_cells(file, file.city.cells.size(), file.entries.size())) return defect;
+  const size_t rows = file.row_begin.size() - 1;
+  for (size_t r = 0; r < rows; ++r)
+    if (auto defect = find_defect(file.entries.data() + file.row_begin[r],
+                                  file.entries.data() + file.row_begin[r + 1], file.city.slices))
+      return fmt::format("/pvs/object: row {}: {}", r, *defect);
+  return {};
+}
+
+Defect find_row_defect(const PvsIndex& index, uint64_t entries) {
+  return check_cells(index, index.cells.size(), entries);
+}
+
+}  // namespace veduta

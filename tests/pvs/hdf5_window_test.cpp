@@ -1,0 +1,73 @@
+#include "pvs/hdf5_window.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "pvs/hdf5_output.h"
+#include "tests/pvs/small_city.h"
+
+namespace veduta::hdf5 {
+namespace {
+
+/// 10 blocks and a bit of /pvs/begin, value i * i in row i.
+class Hdf5Window : public testing::Test {
+ protected:
+  Hdf5Window() {
+    Output output(directory_ / "a.h5");
+    output.group("/pvs");
+    ColumnWriter writer(output, column::pvs_begin, 0);
+    for (uint64_t i = 0; i < rows_; ++i) {
+      const uint64_t value = i * i;
+      writer.append(&value, 1);
+    }
+    writer.finish();
+    output.close();
+  }
+  void expect_rows(ColumnWindow& window, uint64_t first, uint64_t count) const {
+    const auto got = window.read<uint64_t>(first, count);
+    ASSERT_EQ(got.size(), count);
+    for (uint64_t i = 0; i < count; ++i) ASSERT_EQ(got[i], (first + i) * (first + i));
+  }
+
+  static constexpr uint64_t block_ = 32768, rows_ = 10 * block_ + 77;
+  test::TemporaryDirectory directory_;
+};
+
+TEST_F(Hdf5Window, ReadsAnyRows) {
+  const Input input(directory_ / "a.h5");
+  ColumnWindow window(input, column::pvs_begin);
+  ASSERT_EQ(window.reader().rows(), rows_);
+  ASSERT_EQ(window.reader().block_rows(), block_);
+  std::mt19937 random(2);
+  for (int i = 0; i < 200; ++i) {
+    const uint64_t first = random() % rows_;
+    expect_rows(window, first, random() % std::min<uint64_t>(rows_ - first + 1, 3 * block_));
+  }
+  expect_rows(window, 0, rows_);
+  expect_rows(window, rows_ - 1, 1);
+  expect_rows(window, rows_, 0);
+}
+
+TEST_F(Hdf5Window, UnpacksABlockOnceForReadsThatFollowOneAnother) {
+  const Input input(directory_ / "a.h5");
+  ColumnWindow window(input, column::pvs_begin);
+  for (uint64_t first = 0; first + 100 <= rows_; first += 100) expect_rows(window, first, 100);
+  EXPECT_EQ(window.blocks_read(), 11u);
+}
+
+TEST_F(Hdf5Window, ComesBackToWhatItReadLately) {
+  const Input input(directory_ / "a.h5");
+  ColumnWindow window(input, column::pvs_begin);
+  for (int round = 0; round < 5; ++round)
+    for (const uint64_t block : {2, 7, 3, 5}) expect_rows(window, block * block_ + 9, 5);
+  EXPECT_EQ(window.blocks_read(), 4u);
+  expect_rows(window, 0, 5);               // in place of the one that was not used for longest: 2
+  expect_rows(window, 3 * block_ + 9, 5);  // still there
+  EXPECT_EQ(window.blocks_read(), 5u);
+  expect_rows(window, 2 * block_ + 9, 5);
+  EXPECT_EQ(window.blocks_read(), 6u);
+}
+
+}  // namespace
+}  // namespace veduta::hdf5
