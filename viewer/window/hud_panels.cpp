@@ -178,7 +178,8 @@ void figures_panel(const HudFigures& figures, const HudScale& scale) {
 void help_panel(std::span<const KeyBinding> keys, const HudScale& scale) {
   const HelpShape shape = shape_help(keys, scale);
   const size_t rows = (keys.size() + shape.columns - 1) / shape.columns;
-  if (begin_panel("help", scale, {0.5f, 0.5f}, {0, 0})) {
+  ImGui::SetNextWindowBgAlpha(0.93f);  // a small picture has no room beside the figures
+  if (begin_panel("help", scale, {1, 0.5f}, {0, 0})) {
     ImGui::SetWindowFontScale(shape.shrink);
     if (ImGui::BeginTable("keys", static_cast<int>(2 * shape.columns), ImGuiTableFlags_SizingFixedFit)) {
       for (size_t row = 0; row < rows; ++row) {

@@ -35,7 +35,7 @@ bool uncomfortable(const ViewState& state);
 
 /// Upper left.
 void figures_panel(const HudFigures& figures, const HudScale& scale);
-/// In the middle, as many columns as are needed.
+/// On the right, in as many columns as leave the letters largest.
 void help_panel(std::span<const KeyBinding> keys, const HudScale& scale);
 /// Lower left. `parts`: titles, and the entries below them.
 void legend_panel(const std::vector<std::pair<std::string, std::vector<LegendEntry>>>& parts,
