@@ -21,44 +21,39 @@ constexpr std::array<uint8_t, 3> background{90, 140, 60};
 // What changed in a picture, from its upper left corner.
 struct Changed {
   uint32_t left = ~0u, top = ~0u, right = 0,
-           bottom = 0;           ///< [left, right) x [top, bottom)
-  size_t pixels = 0, bright = 0; ///< bright: letters
+           bottom = 0;            ///< [left, right) x [top, bottom)
+  size_t pixels = 0, bright = 0;  ///< bright: letters
   uint32_t width() const { return right - left; }
   uint32_t height() const { return bottom - top; }
 };
 
 // Within rows and columns [from, to) of the picture.
-Changed changed(const Image &image, glm::uvec2 from = {0, 0},
-                std::optional<glm::uvec2> to = {}) {
+Changed changed(const Image& image, glm::uvec2 from = {0, 0}, std::optional<glm::uvec2> to = {}) {
   Changed result;
   for (uint32_t y = from.y; y < (to ? to->y : image.height); ++y)
     for (uint32_t x = from.x; x < (to ? to->x : image.width); ++x) {
-      const uint8_t *pixel = &image.rgb[3 * (size_t{y} * image.width + x)];
-      if (std::equal(background.begin(), background.end(), pixel))
-        continue;
+      const uint8_t* pixel = &image.rgb[3 * (size_t{y} * image.width + x)];
+      if (std::equal(background.begin(), background.end(), pixel)) continue;
       ++result.pixels;
       result.bright += pixel[0] > 220 && pixel[1] > 220 && pixel[2] > 220;
-      result.left = std::min(result.left, x),
-      result.right = std::max(result.right, x + 1);
-      result.top = std::min(result.top, y),
-      result.bottom = std::max(result.bottom, y + 1);
+      result.left = std::min(result.left, x), result.right = std::max(result.right, x + 1);
+      result.top = std::min(result.top, y), result.bottom = std::max(result.bottom, y + 1);
     }
   return result;
 }
 
-bool has_colour(const Image &image, std::array<uint8_t, 3> colour) {
+bool has_colour(const Image& image, std::array<uint8_t, 3> colour) {
   for (size_t i = 0; i < image.rgb.size(); i += 3)
-    if (std::equal(colour.begin(), colour.end(), &image.rgb[i]))
-      return true;
+    if (std::equal(colour.begin(), colour.end(), &image.rgb[i])) return true;
   return false;
 }
 
 class HudTest : public testing::Test {
-protected:
+ protected:
   void SetUp() override {
     try {
       context_.emplace("auto");
-    } catch (const Error &error) {
+    } catch (const Error& error) {
       GTEST_SKIP() << error.what();
     }
     hud_.emplace();
@@ -68,8 +63,7 @@ protected:
       index_.cell_row.push_back(i);
       index_.bake_us.push_back(1000 * i);
       index_.row_begin.push_back(index_.row_begin.back() + i);
-      index_.objects.push_back({"House " + std::to_string(i), Kind::building,
-                                100 * i, 100 * i + 100});
+      index_.objects.push_back({"House " + std::to_string(i), Kind::building, 100 * i, 100 * i + 100});
     }
     index_.objects[7].name = "Water tower";
     index_.objects[9].name = "TOWER BRIDGE";
@@ -82,37 +76,32 @@ protected:
   Image draw(bool converting = true) {
     Offscreen target(size_);
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
-    glViewport(0, 0, static_cast<GLsizei>(size_.x),
-               static_cast<GLsizei>(size_.y));
+    glViewport(0, 0, static_cast<GLsizei>(size_.x), static_cast<GLsizei>(size_.y));
     glDisable(GL_FRAMEBUFFER_SRGB);
-    const auto channel =
-        [](uint8_t value) { // the frame buffer takes it as it is
-          return static_cast<float>(value) / 255;
-        };
-    glClearColor(channel(background[0]), channel(background[1]),
-                 channel(background[2]), 1);
+    const auto channel = [](uint8_t value) {  // the frame buffer takes it as it is
+      return static_cast<float>(value) / 255;
+    };
+    glClearColor(channel(background[0]), channel(background[1]), channel(background[2]), 1);
     glClear(GL_COLOR_BUFFER_BIT);
-    if (converting)
-      glEnable(GL_FRAMEBUFFER_SRGB);
+    if (converting) glEnable(GL_FRAMEBUFFER_SRGB);
     hud_->draw();
-    EXPECT_EQ(glIsEnabled(GL_FRAMEBUFFER_SRGB) == GL_TRUE, converting)
-        << "left as it was";
+    EXPECT_EQ(glIsEnabled(GL_FRAMEBUFFER_SRGB) == GL_TRUE, converting) << "left as it was";
     EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
     return read_picture(target.framebuffer(), size_);
   }
   Image picture() {
     layout();
-    layout(); // ImGui knows how large a panel is after it showed it once
+    layout();  // ImGui knows how large a panel is after it showed it once
     return draw();
   }
 
-  void type(const char *text) {
+  void type(const char* text) {
     ImGui::GetIO().AddInputCharactersUTF8(text);
     layout();
   }
   void press(ImGuiKey key) {
-    ImGuiIO &io = ImGui::GetIO();
-    io.KeyMap[key] = static_cast<int>(key) + 1; // as ImGui's GLFW backend does
+    ImGuiIO& io = ImGui::GetIO();
+    io.KeyMap[key] = static_cast<int>(key) + 1;  // as ImGui's GLFW backend does
     io.KeysDown[io.KeyMap[key]] = true;
     layout();
     io.KeysDown[io.KeyMap[key]] = false;
@@ -120,14 +109,12 @@ protected:
   }
   void open_search() {
     state_.search = true;
-    for (int i = 0; i < 3; ++i)
-      layout();
+    for (int i = 0; i < 3; ++i) layout();
   }
-  std::optional<uint32_t> search(const char *text, int down = 0) {
+  std::optional<uint32_t> search(const char* text, int down = 0) {
     open_search();
     type(text);
-    for (int i = 0; i < down; ++i)
-      press(ImGuiKey_DownArrow);
+    for (int i = 0; i < down; ++i) press(ImGuiKey_DownArrow);
     press(ImGuiKey_Enter);
     const std::optional<uint32_t> chosen = hud_->chosen();
     state_.search = false;
@@ -161,8 +148,7 @@ TEST_F(HudTest, FiguresAreInACompactPanelAtTheUpperLeft) {
   EXPECT_LT(panel.right, size_.x * 3 / 10);
   EXPECT_LT(panel.bottom, size_.y * 45 / 100);
   EXPECT_GT(panel.bright, 200u) << "letters";
-  EXPECT_GE(panel.pixels + 4 * 20, panel.width() * panel.height())
-      << "a rectangle, its corners round";
+  EXPECT_GE(panel.pixels + 4 * 20, panel.width() * panel.height()) << "a rectangle, its corners round";
 }
 
 TEST_F(HudTest, FiguresFollowTheFrame) {
@@ -230,8 +216,7 @@ TEST_F(HudTest, WarningsHaveAColourOfTheirOwn) {
     const Image image = picture();
     size_t pixels = 0;
     for (size_t i = 0; i < image.rgb.size(); i += 3)
-      pixels +=
-          image.rgb[i] > 220 && image.rgb[i + 1] > 150 && image.rgb[i + 2] < 90;
+      pixels += image.rgb[i] > 220 && image.rgb[i + 1] > 150 && image.rgb[i + 2] < 90;
     return pixels;
   };
   state_.hud = true, state_.stereo = StereoMode::side_by_side, last_.cell = 3;
@@ -261,11 +246,9 @@ TEST_F(HudTest, MessagesStaySomeSeconds) {
   const Changed message = changed(picture());
   EXPECT_GT(message.bright, 100u);
   EXPECT_GT(message.top, size_.y * 3 / 4);
-  for (int i = 0; i < 30; ++i)
-    layout(0.1);
+  for (int i = 0; i < 30; ++i) layout(0.1);
   EXPECT_GT(changed(picture()).pixels, 0u);
-  for (int i = 0; i < 30; ++i)
-    layout(0.1);
+  for (int i = 0; i < 30; ++i) layout(0.1);
   EXPECT_EQ(changed(picture()).pixels, 0u);
 }
 
@@ -301,9 +284,9 @@ TEST_F(HudTest, HostileNamesStayInTheirLine) {
   type("house");
   const Changed plain = changed(picture());
   state_.search = false, layout();
-  for (Object &object : index_.objects)
+  for (Object& object : index_.objects)
     object.name = "House%n%s\n\n\x1b]0;\xff\xfe##" + std::string(5000, 'W');
-  hud_.reset(), hud_.emplace(); // another file
+  hud_.reset(), hud_.emplace();  // another file
   open_search();
   type("house%n");
   const Changed hostile = changed(picture());
@@ -320,8 +303,7 @@ TEST_F(HudTest, FiguresOfNoFileDoNoHarm) {
   last_.cell = 1000000, last_.triangles = ~uint64_t{0}, last_.ms = 1e30;
   state_.pose.position_m = glm::vec3(1e30f);
   index_ = {};
-  for (const glm::uvec2 size :
-       {glm::uvec2{1, 1}, {64, 48}, {320, 2000}, {4000, 30}}) {
+  for (const glm::uvec2 size : {glm::uvec2{1, 1}, {64, 48}, {320, 2000}, {4000, 30}}) {
     size_ = size;
     picture();
   }
@@ -332,12 +314,11 @@ TEST_F(HudTest, WritesNoFile) {
   const std::filesystem::path before = std::filesystem::current_path();
   std::filesystem::current_path(directory.path());
   hud_->say("something");
-  for (int i = 0; i < 10; ++i)
-    layout(1);
+  for (int i = 0; i < 10; ++i) layout(1);
   hud_.reset();
   EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
   std::filesystem::current_path(before);
 }
 
-} // namespace
-} // namespace veduta
+}  // namespace
+}  // namespace veduta
