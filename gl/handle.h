@@ -28,6 +28,10 @@ struct VertexArrayKind {
   static void make(GLuint* id) { glGenVertexArrays(1, id); }
   static void drop(const GLuint* id) { glDeleteVertexArrays(1, id); }
 };
+struct SamplerKind {
+  static void make(GLuint* id) { glGenSamplers(1, id); }
+  static void drop(const GLuint* id) { glDeleteSamplers(1, id); }
+};
 struct QueryKind {
   static void make(GLuint* id) { glGenQueries(1, id); }
   static void drop(const GLuint* id) { glDeleteQueries(1, id); }
@@ -60,6 +64,7 @@ using GlTexture = Handle<TextureKind>;
 using GlFramebuffer = Handle<FramebufferKind>;
 using GlRenderbuffer = Handle<RenderbufferKind>;
 using GlVertexArray = Handle<VertexArrayKind>;
+using GlSampler = Handle<SamplerKind>;
 using GlQuery = Handle<QueryKind>;
 
 }  // namespace veduta

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+
+#include "viewer/view_state.h"
 
 namespace veduta {
 
@@ -39,6 +42,29 @@ Frustum single_location_frustum(const Pose& pose, const Optics& optics) {
   return {{plane(forward, eye + forward * double{optics.near_m}), plane(forward * tan_across + right, apex),
            plane(forward * tan_across - right, apex), plane(forward * tan_upright + up, apex),
            plane(forward * tan_upright - up, apex)}};
+}
+
+Frustum eye_frustum(const EyeView& view) {
+  // In the picture: |x| <= w, |y| <= w and z <= w in clip space, each a row of the matrix.
+  const auto row = [&](int i) {
+    const glm::mat4& m = view.clip_from_offset;
+    return glm::dvec4(m[0][i], m[1][i], m[2][i], m[3][i]);
+  };
+  const auto plane = [&](const glm::dvec4& half_space) {
+    const glm::dvec3 normal(half_space);
+    return Frustum::Plane{normal, half_space.w - glm::dot(normal, glm::dvec3(view.position_m))};
+  };
+  const glm::dvec4 x = row(0), y = row(1), z = row(2), w = row(3);
+  return {{plane(w - z), plane(w + x), plane(w - x), plane(w + y), plane(w - y)}};
+}
+
+std::vector<Frustum> frusta(Culling culling, const Pose& pose, const Optics& optics, StereoMode mode) {
+  if (culling == Culling::none) return {};
+  const std::vector<Eye> drawn = eyes(mode);
+  if (drawn.size() > 1 && culling == Culling::single_location) return {single_location_frustum(pose, optics)};
+  std::vector<Frustum> each;
+  for (Eye eye : drawn) each.push_back(eye_frustum(eye_view(pose, optics, eye)));
+  return each;
 }
 
 }  // namespace veduta

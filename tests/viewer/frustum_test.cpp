@@ -7,6 +7,8 @@
 #include <glm/vec4.hpp>
 #include <random>
 
+#include "viewer/view_state.h"
+
 namespace veduta {
 namespace {
 
@@ -66,6 +68,51 @@ TEST(Frustum, LeavesOutWhatIsBesideAndBehind) {
   EXPECT_TRUE(frustum.outside(box({5, 0, 30})));
   EXPECT_TRUE(frustum.outside(box({5, 0, -30})));
   EXPECT_FALSE(frustum.outside({{-500, -500, -500}, {500, 500, 500}})) << "a box around the eye";
+}
+
+TEST(Frustum, AnEyesOwnHoldsWhatItsPictureShows) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> spread(-1, 1), distance(0.02f, 60);
+  const Pose pose{{100, 50, 2}, 25, -10};
+  Optics optics = wide_eyes();
+  optics.near_m = 3;
+  for (Eye eye : {Eye::left, Eye::middle, Eye::right}) {
+    const EyeView view = eye_view(pose, optics, eye);
+    const Frustum frustum = eye_frustum(view);
+    int seen = 0, differ = 0;
+    for (int i = 0; i < 20000; ++i) {
+      const glm::vec3 point =
+          pose.position_m + distance(random) * glm::vec3(spread(random), spread(random), spread(random));
+      seen += in_picture(view, point);
+      differ += in_picture(view, point) != frustum.contains(point);
+    }
+    EXPECT_GT(seen, 500);
+    EXPECT_LT(differ, 3) << "the projection is in float";
+  }
+}
+
+TEST(Frustum, EyesFarApartHaveAGapThatOnlyTheSingleLocationHolds) {
+  const Optics optics = wide_eyes();
+  const Pose pose;
+  const glm::dvec3 between{0.1, 0, 0};  // nearer than both eyes' inner edges meet
+  EXPECT_TRUE(single_location_frustum(pose, optics).contains(between));
+  for (Eye eye : {Eye::left, Eye::right})
+    EXPECT_FALSE(eye_frustum(eye_view(pose, optics, eye)).contains(between));
+}
+
+TEST(Frustum, TheFrustaOfAFrameFollowCullingAndEyes) {
+  const auto count = [](Culling culling, StereoMode mode) { return frusta(culling, {}, {}, mode).size(); };
+  EXPECT_EQ(count(Culling::none, StereoMode::anaglyph), 0u);
+  EXPECT_EQ(count(Culling::single_location, StereoMode::anaglyph), 1u);
+  EXPECT_EQ(count(Culling::multiple_location, StereoMode::anaglyph), 2u);
+  EXPECT_EQ(count(Culling::multiple_location, StereoMode::mono), 1u);
+  const glm::dvec3 left_eye_only{0.06, 0.05, 0};
+  Optics optics;
+  optics.near_m = 0.01f;
+  EXPECT_TRUE(frusta(Culling::single_location, {}, optics, StereoMode::left)[0].contains(left_eye_only));
+  EXPECT_FALSE(frusta(Culling::single_location, {}, optics, StereoMode::right)[0].contains(left_eye_only));
+  EXPECT_TRUE(frusta(Culling::multiple_location, {}, optics, StereoMode::anaglyph)[0].contains(left_eye_only))
+      << "left first";
 }
 
 }  // namespace
