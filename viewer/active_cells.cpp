@@ -1,18 +1,9 @@
 #include "viewer/active_cells.h"
 
-#include <toml++/toml.h>
 #include <algorithm>
 #include <iterator>
 
 namespace veduta {
-
-double baked_eye_margin_m(const std::string& config) {
-  try {
-    return std::max(0.0, toml::parse(config)["stereo"]["eye_margin_m"].value_or(0.0));
-  } catch (const toml::parse_error&) {
-    return 0;  // a file of somebody else's making: both eyes are then looked up, which always holds
-  }
-}
 
 ActiveCells active_cells(const PvsFile& file, const Pose& pose, const Optics& optics, StereoMode mode,
                          double eye_margin_m) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "viewer/draw/box_culler.h"
 #include "viewer/frustum.h"
 #include "viewer/stream/page.h"
 #include "viewer/view_state.h"
@@ -43,6 +44,7 @@ class CommandLister {
  public:
   CommandLister(const PvsIndex& index, const std::vector<PageSpan>& pages);
 
+  /// A page lies here from now on. `ranges`: of object first_object + i under number i.
   void add(uint32_t page, const PagePlace& place, SliceRanges&& ranges);
   void remove(uint32_t page);
 
@@ -55,7 +57,9 @@ class CommandLister {
     PagePlace place;
     SliceRanges ranges;
   };
-  const PvsIndex& index_;
+  void add(uint32_t page, const PvsEntry& entry, CommandList& list) const;
+
+  BoxBlocks bounds_;  ///< of the objects
   std::vector<PageSpan> pages_;
   std::vector<uint32_t> page_of_;  ///< [N]
   std::vector<Here> here_;         ///< [pages]

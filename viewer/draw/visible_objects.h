@@ -19,7 +19,8 @@ double baked_eye_margin_m(const std::string& config);
 using RowOf = std::function<const PvsRow*(uint32_t cell)>;
 
 /// When the eyes are within the margin of their midpoint, its cell's row serves both; else the rows of both
-/// eyes' cells are united. The pose is the frozen one where there is one.
+/// eyes' cells are united. The pose is the frozen one where there is one. A row that is not here yet: the
+/// result is waiting, and everything.
 VisibleObjects visible_objects(const PvsIndex& index, const RowOf& row, const ViewState& state,
                                double eye_margin_m);
 
