@@ -62,9 +62,9 @@ struct Hud::State {
 
   ImGuiContext* context = nullptr;
   float letter = 0;
-  std::optional<double> time_s;  ///< of the last layout
-  bool typing = false;           ///< is the search open?
-  bool parallax_said = true;
+  std::optional<double> time_s;          ///< of the last layout
+  bool typing = false;                   ///< is the search open?
+  StereoMode stereo = StereoMode::mono;  ///< of the last layout
   std::vector<Message> messages;
   RecentFrames recent;
   SearchField search;
@@ -74,7 +74,7 @@ struct Hud::State {
   CellScale scale;
 
   void use_letters(float height);
-  void warn_of_parallax(const ViewState& state);
+  double tick(double now_s, const FrameStats& last, const ViewState& state);
   void age_messages(double elapsed_s);
   void show_legends(const ViewState& state, const PvsIndex& index, const HudScale& hud_scale);
 };
@@ -97,12 +97,17 @@ void Hud::State::use_letters(float height) {
   set_style(height);
 }
 
-// When the user passes the limit, not in every frame.
-void Hud::State::warn_of_parallax(const ViewState& state) {
-  const bool too_far = uncomfortable(state);
-  if (too_far && !parallax_said)
-    messages.push_back({"far points are over 1.6° apart between the eyes: not comfortable", message_s});
-  parallax_said = too_far;
+// What is new since the last layout. Returns how long ago that was, s.
+double Hud::State::tick(double now_s, const FrameStats& last, const ViewState& state) {
+  const bool first = !time_s;
+  const double elapsed_s = first ? 0 : std::max(0.0, now_s - *time_s);
+  time_s = now_s;
+  if (!first) recent.add(last.ms, elapsed_s);
+  // Of other eyes and screens the controls say it, each time.
+  if (std::exchange(stereo, state.stereo) != state.stereo && !first && uncomfortable(state))
+    messages.push_back({"far points are more than 1.6° apart between the eyes: not comfortable", message_s});
+  age_messages(elapsed_s);
+  return elapsed_s;
 }
 
 void Hud::State::age_messages(double elapsed_s) {
@@ -150,12 +155,8 @@ void Hud::layout(const ViewState& state, const FrameStats& last, const CityStrea
                  const PvsIndex& index, const glm::uvec2& picture, double time_s) {
   State& s = *state_;
   const HudScale scale{letter_height(glm::vec2(picture)), glm::vec2(picture)};
-  const double elapsed_s = s.time_s ? std::max(0.0, time_s - *s.time_s) : 0;
-  if (s.time_s) s.recent.add(last.ms, elapsed_s);
-  s.time_s = time_s;
+  const double elapsed_s = s.tick(time_s, last, state);
   s.use_letters(scale.letter);
-  s.warn_of_parallax(state);
-  s.age_messages(elapsed_s);
 
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {scale.size.x, scale.size.y};
