@@ -252,6 +252,21 @@ TEST_F(HudTest, MessagesStaySomeSeconds) {
   EXPECT_EQ(changed(picture()).pixels, 0u);
 }
 
+TEST_F(HudTest, ALongMessageIsWrapped) {
+  hud_->say("short");
+  const Changed line = changed(picture());
+  layout(60);
+  hud_->say("saved /a/long/path" + std::string(100, '/') + " with words in it, and then some more of them");
+  const Changed message = changed(picture());
+  EXPECT_GT(message.left, 0u);
+  EXPECT_LT(message.right, size_.x);
+  size_ = {640, 720};
+  const Changed wrapped = changed(picture());
+  EXPECT_GT(wrapped.left, 0u);
+  EXPECT_LT(wrapped.right, size_.x);
+  EXPECT_GT(wrapped.height(), line.height() + 10);
+}
+
 TEST_F(HudTest, SearchFindsAndEnterChooses) {
   EXPECT_FALSE(hud_->wants_keys());
   open_search();

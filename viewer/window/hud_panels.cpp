@@ -218,8 +218,14 @@ void legend_panel(const std::vector<std::pair<std::string, std::vector<LegendEnt
 }
 
 void messages_panel(const std::vector<std::string>& lines, const HudScale& scale) {
-  if (begin_panel("messages", scale, {0.5f, 1}, {0, 0}))
+  float width = 0;
+  for (const std::string& line : lines) width = std::max(width, ImGui::CalcTextSize(line.c_str()).x);
+  width = std::min(width + 1 + 2 * ImGui::GetStyle().WindowPadding.x, 0.8f * scale.size.x);
+  if (begin_panel("messages", scale, {0.5f, 1}, {width, 0})) {
+    ImGui::PushTextWrapPos(0);
     for (const std::string& line : lines) write(plain, line);
+    ImGui::PopTextWrapPos();
+  }
   ImGui::End();
 }
 
