@@ -5,13 +5,15 @@
 #include <imgui.h>
 
 #include <filesystem>
-#include <initializer_list>
+#include <glm/common.hpp>
+#include <glm/gtc/color_space.hpp>
 #include <optional>
 
 #include "gl/egl_context.h"
 #include "scene/error.h"
 #include "tests/pvs/small_city.h"
 #include "viewer/draw/offscreen.h"
+#include "viewer/window/legend.h"
 
 namespace veduta {
 namespace {
@@ -175,9 +177,12 @@ TEST_F(HudTest, ColoursAreThoseOfTheLegendWhetherGlConvertsOrNot) {
   layout(), layout();
   const Image converting = draw(true);
   EXPECT_TRUE(converting == draw(false));
-  EXPECT_TRUE(has_colour(converting, {215, 48, 31}));
-  EXPECT_TRUE(has_colour(converting, {59, 111, 196}));
-  EXPECT_TRUE(has_colour(converting, {242, 208, 75}));
+  for (const LegendEntry& entry : map_legend()) {
+    const glm::vec3 bytes = glm::round(255.0f * glm::convertLinearToSRGB(entry.colour));
+    EXPECT_TRUE(has_colour(converting, {static_cast<uint8_t>(bytes.r), static_cast<uint8_t>(bytes.g),
+                                        static_cast<uint8_t>(bytes.b)}))
+        << entry.text;
+  }
   const Changed legend = changed(converting);
   EXPECT_LT(legend.right, size_.x / 4);
   EXPECT_GT(legend.top, size_.y / 2);

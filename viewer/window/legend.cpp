@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <glm/gtc/color_space.hpp>
-
 #include "scene/text.h"
 
 namespace veduta {
@@ -31,12 +29,10 @@ std::string number(float value, const char* unit) {
 }  // namespace
 
 std::vector<LegendEntry> map_legend() {
-  const auto srgb = [](int red, int green, int blue) {
-    return glm::convertSRGBToLinear(glm::vec3(red, green, blue) / 255.0f);
-  };
-  return {{srgb(215, 48, 31), "completely visible"},
-          {srgb(59, 111, 196), "partially visible"},
-          {srgb(242, 208, 75), "invisible"}};
+  // As the map's shader has them.
+  return {{{0.62f, 0.05f, 0.04f}, "completely visible"},
+          {{0.05f, 0.14f, 0.66f}, "partially visible"},
+          {{0.75f, 0.58f, 0.06f}, "invisible"}};
 }
 
 std::vector<LegendEntry> cell_legend(const PvsIndex& index, CellColour by, const CellScale& scale) {
