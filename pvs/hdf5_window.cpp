@@ -11,7 +11,7 @@ const ColumnWindow::Block& ColumnWindow::block(uint64_t first) {
     Block fresh{first, std::vector<std::byte>(count * reader_.row_bytes())};
     reader_.read_block(first, count, fresh.rows.data());
     ++blocks_read_;
-    if (blocks_.size() == blocks_kept) blocks_.pop_back();
+    if (blocks_.size() == blocks_kept_) blocks_.pop_back();
     blocks_.push_front(std::move(fresh));
   } else {
     std::rotate(blocks_.begin(), found, found + 1);

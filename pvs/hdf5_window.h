@@ -9,8 +9,11 @@ namespace veduta::hdf5 {
 
 class ColumnWindow {
  public:
-  /// Checks as ColumnReader. `input` must outlive it.
-  ColumnWindow(const Input& input, const Column& column) : reader_(input, column) {}
+  /// Checks as ColumnReader. `input` must outlive it. A block is about 256 KiB. Rows of neighbouring cells,
+  /// and pages of geometry that were cut through a block, come back to it soon; so do the vertices of objects
+  /// that lie apart in the file, as an eye meets them.
+  ColumnWindow(const Input& input, const Column& column, size_t blocks_kept = 32)
+      : reader_(input, column), blocks_kept_(blocks_kept) {}
 
   const ColumnReader& reader() const { return reader_; }
 
@@ -36,10 +39,8 @@ class ColumnWindow {
   };
   const Block& block(uint64_t first);
 
-  // A block is about 256 KiB. Rows of neighbouring cells, and pages of geometry that were cut through a
-  // block, come back to it soon.
-  static constexpr size_t blocks_kept = 4;
   ColumnReader reader_;
+  size_t blocks_kept_;
   std::deque<Block> blocks_;  ///< the last used first
   uint64_t blocks_read_ = 0;
 };

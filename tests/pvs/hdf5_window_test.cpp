@@ -58,7 +58,7 @@ TEST_F(Hdf5Window, UnpacksABlockOnceForReadsThatFollowOneAnother) {
 
 TEST_F(Hdf5Window, ComesBackToWhatItReadLately) {
   const Input input(directory_ / "a.h5");
-  ColumnWindow window(input, column::pvs_begin);
+  ColumnWindow window(input, column::pvs_begin, 4);
   for (int round = 0; round < 5; ++round)
     for (const uint64_t block : {2, 7, 3, 5}) expect_rows(window, block * block_ + 9, 5);
   EXPECT_EQ(window.blocks_read(), 4u);
