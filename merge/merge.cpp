@@ -44,6 +44,21 @@ BakedCell baked_cell(const JournalEntry& entry, uint32_t cell, RecordPool& pool,
   return {record.status, record.bake_us, std::move(record.row), record.overestimate};
 }
 
+/// Those whose records count, by the names of their shards.
+struct Workers {
+  explicit Workers(const Journal& journal) : number(journal.shards.size(), no_worker) {
+    for (const JournalEntry& entry : journal.cells)
+      if (entry.shard >= 0) number[static_cast<size_t>(entry.shard)] = 0;
+    for (size_t s = 0; s < number.size(); ++s) {
+      if (number[s] == no_worker) continue;
+      number[s] = static_cast<uint32_t>(names.size());
+      names.push_back(journal.shards[s].stem().string());
+    }
+  }
+  std::vector<uint32_t> number;  ///< by shard, in `names`
+  std::vector<std::string> names;
+};
+
 MergeResult merge(const RunPaths& run, const std::filesystem::path& output, bool partial,
                   const WorkHeard& heard) {
   const std::string fingerprint_text = read_text(run.fingerprint());
@@ -68,13 +83,17 @@ MergeResult merge(const RunPaths& run, const std::filesystem::path& output, bool
             "{}: {} of {} cells are not baked yet; run the bake again to finish it, or merge with --partial",
             run.directory.string(), result.unfinished, cell_count));
   RecordPool pool(journal.shards);
+  const Workers workers(journal);
   const auto cell_of = [&](uint32_t cell) {
     const JournalEntry& entry = journal.cells[cell];
     if (entry.shard < 0) return BakedCell{};
-    return baked_cell(entry, cell, pool, journal.shards[static_cast<size_t>(entry.shard)]);
+    const auto shard = static_cast<size_t>(entry.shard);
+    BakedCell baked = baked_cell(entry, cell, pool, journal.shards[shard]);
+    baked.worker = workers.number[shard];
+    return baked;
   };
   remove_dead_temporaries(output);
-  result.content_digest = write_pvs(output, run.city(), city, header, cell_of, heard);
+  result.content_digest = write_pvs(output, run.city(), city, header, cell_of, heard, workers.names);
   result.bytes = std::filesystem::file_size(output);
   return result;
 }

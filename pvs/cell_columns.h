@@ -16,6 +16,10 @@ void read_cell_columns(const hdf5::Input& input, File& file, ColumnDigests& dige
   read(column::cell_status, file.cell_status);
   read(column::cell_overestimate, file.overestimate);
   read(column::pvs_begin, file.row_begin);
+  if (!input.has(column::cell_worker.path) && !input.has(column::worker_name.path)) return;
+  read(column::cell_worker, file.cell_worker);
+  digests[column::worker_name.path] = hdf5::ColumnReader(input, column::worker_name).read_texts(file.workers);
+  if (file.workers.empty()) input.fail(column::worker_name.path, "no name");
 }
 
 }  // namespace veduta

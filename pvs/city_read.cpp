@@ -31,14 +31,10 @@ void read_members(const Input& input, const Column& column, Items& items, Set se
 
 template <typename Items>
 void read_names(const Input& input, const Column& column, Items& items, ColumnDigests& digests) {
-  const ColumnReader reader(input, column);
-  items.resize(reader.rows());
-  digests[column.path] = reader.read([&](const std::byte* rows, uint64_t first, size_t count) {
-    for (size_t i = 0; i < count; ++i) {
-      const char* text = reinterpret_cast<const char*>(rows + i * reader.row_bytes());
-      items[first + i].name.assign(text, ::strnlen(text, reader.row_bytes()));
-    }
-  });
+  std::vector<std::string> names;
+  digests[column.path] = ColumnReader(input, column).read_texts(names);
+  items.resize(names.size());
+  for (size_t i = 0; i < names.size(); ++i) items[i].name = std::move(names[i]);
 }
 
 void read_scene(const Input& input, City& city, ColumnDigests& digests) {

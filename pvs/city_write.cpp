@@ -30,19 +30,10 @@ void write_members(Output& output, const Column& column, const Items& items, Mem
   digests[column.path] = writer.finish();
 }
 
-/// Texts of fixed length, padded with NUL: no variable-length types, which have hurt many readers.
 template <typename Items>
 void write_names(Output& output, const Column& column, const Items& items, ColumnDigests& digests) {
-  size_t longest = 1;
-  for (const auto& item : items) longest = std::max(longest, item.name.size());
-  ColumnWriter writer(output, column, items.size(), longest);
-  std::string padded;
-  for (const auto& item : items) {
-    padded = item.name;
-    padded.resize(longest, '\0');
-    writer.append(padded.data(), 1);
-  }
-  digests[column.path] = writer.finish();
+  digests[column.path] = hdf5::write_texts(output, column, items.size(),
+                                           [&](size_t i) -> const std::string& { return items[i].name; });
 }
 
 /// The file holds every triangle that there is to see: instances are placed one by one, so that memory holds

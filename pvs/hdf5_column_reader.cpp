@@ -127,4 +127,14 @@ std::string ColumnReader::read(
   return hex;
 }
 
+std::string ColumnReader::read_texts(std::vector<std::string>& out) const {
+  out.resize(rows_);
+  return read([&](const std::byte* rows, uint64_t first, size_t count) {
+    for (size_t i = 0; i < count; ++i) {
+      const char* text = reinterpret_cast<const char*>(rows + i * row_bytes_);
+      out[first + i].assign(text, ::strnlen(text, row_bytes_));
+    }
+  });
+}
+
 }  // namespace veduta::hdf5

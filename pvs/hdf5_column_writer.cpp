@@ -113,4 +113,18 @@ std::string ColumnWriter::finish() {
   return hex;
 }
 
+std::string write_texts(Output& output, const Column& column, size_t count,
+                        const std::function<const std::string&(size_t)>& text) {
+  size_t longest = 1;
+  for (size_t i = 0; i < count; ++i) longest = std::max(longest, text(i).size());
+  ColumnWriter writer(output, column, count, longest);
+  std::string padded;
+  for (size_t i = 0; i < count; ++i) {
+    padded = text(i);
+    padded.resize(longest, '\0');
+    writer.append(padded.data(), 1);
+  }
+  return writer.finish();
+}
+
 }  // namespace veduta::hdf5

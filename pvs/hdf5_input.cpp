@@ -53,9 +53,13 @@ void Input::refuse(const std::optional<std::string>& defect) const {
 }
 
 bool Input::has(const char* path) const {
-  const htri_t found = H5Lexists(file_.get(), path, H5P_DEFAULT);
-  if (found < 0) fail(path, "damaged");
-  return found > 0;
+  const std::string whole = path;
+  for (size_t slash = whole.find('/', 1);; slash = whole.find('/', slash + 1)) {
+    const htri_t found = H5Lexists(file_.get(), whole.substr(0, slash).c_str(), H5P_DEFAULT);
+    if (found < 0) fail(path, "damaged");
+    if (found == 0) return false;
+    if (slash == std::string::npos) return true;
+  }
 }
 
 Handle Input::open(const char* path) const {

@@ -74,6 +74,9 @@ class ColumnReader {
   std::string read(
       const std::function<void(const std::byte* rows, uint64_t first, size_t count)>& visit) const;
 
+  /// All rows of texts. \return the digest.
+  std::string read_texts(std::vector<std::string>& out) const;
+
   /// The digest that the rows should have.
   std::string stated_digest() const { return input_.text_of(dataset_.get(), column_.path, "digest"); }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <future>
 #include <string>
 #include <vector>
@@ -101,5 +102,10 @@ class ColumnWriter {
   uint64_t rows_ = 0, written_ = 0;
   Digest digest_;
 };
+
+/// Writes texts of fixed length, padded with NUL: no variable-length types, which have hurt many readers.
+/// `text(i)` is asked for i below `count`, in order and twice. \return the digest.
+std::string write_texts(Output& output, const Column& column, size_t count,
+                        const std::function<const std::string&(size_t)>& text);
 
 }  // namespace veduta::hdf5

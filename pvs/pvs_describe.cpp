@@ -95,6 +95,21 @@ Summary summarize(const PvsFile& file, const std::filesystem::path& path) {
   return s;
 }
 
+std::vector<uint64_t> cells_of_workers(const PvsFile& file) {
+  std::vector<uint64_t> cells(file.workers.size());
+  for (const uint32_t worker : file.cell_worker)
+    if (worker != no_worker) ++cells[worker];
+  return cells;
+}
+
+std::string workers_line(const PvsFile& file) {
+  if (file.workers.empty()) return "  workers    not known\n";
+  const std::vector<uint64_t> cells = cells_of_workers(file);
+  const auto most = std::max_element(cells.begin(), cells.end());
+  return fmt::format("  workers    {}; {} baked most, {} cells\n", cells.size(),
+                     file.workers[static_cast<size_t>(most - cells.begin())], *most);
+}
+
 double per_cell(uint64_t bytes, const Summary& s) {
   return s.cells == 0 ? 0 : static_cast<double>(bytes) / static_cast<double>(s.cells);
 }
@@ -154,6 +169,7 @@ std::string describe(const PvsFile& file, const std::filesystem::path& path) {
                      s.status[1], s.status[2]);
   for (const auto& [edge, count] : s.sizes)
     out += fmt::format("  cell size  {:g} x {:g} x {:g} m: {}\n", edge[0], edge[1], edge[2], count);
+  out += workers_line(file);
   out += fmt::format("  rows       {} unique, {} entries\n", s.rows, s.entries);
   out += fmt::format("  visible    {:.1f} objects a cell in the mean, {} median, {} most, of {}\n",
                      s.mean_visible, s.median_visible, s.max_visible, s.objects);
@@ -171,6 +187,10 @@ std::string describe_json(const PvsFile& file, const std::filesystem::path& path
   nlohmann::ordered_json sizes = nlohmann::ordered_json::array();
   for (const auto& [edge, count] : s.sizes)
     sizes.push_back({{"edges_m", {edge[0], edge[1], edge[2]}}, {"cells", count}});
+  nlohmann::ordered_json workers = nlohmann::ordered_json::array();
+  const std::vector<uint64_t> worker_cells = cells_of_workers(file);
+  for (size_t w = 0; w < file.workers.size(); ++w)
+    workers.push_back({{"name", file.workers[w]}, {"cells", worker_cells[w]}});
   nlohmann::ordered_json out = {
       {"file", path.string()},
       {"complete", file.header.complete},
@@ -185,6 +205,7 @@ std::string describe_json(const PvsFile& file, const std::filesystem::path& path
       {"cells_coarse", s.status[1]},
       {"cells_all_visible", s.status[2]},
       {"cell_sizes", sizes},
+      {"workers", workers},
       {"rows", s.rows},
       {"entries", s.entries},
       {"visible_objects_mean", s.mean_visible},

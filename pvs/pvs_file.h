@@ -28,6 +28,8 @@ struct PvsHeader {
   bool conservative = true;
 };
 
+inline constexpr uint32_t no_worker = UINT32_MAX;  ///< nobody baked the cell, or nobody knows who
+
 /// A file in memory, checked: every digest compared, every index in range, every offset monotone. Row
 /// `cell_row[c]` is entries [row_begin[r], row_begin[r+1]).
 struct PvsFile {
@@ -37,10 +39,12 @@ struct PvsFile {
   std::vector<CellStatus> cell_status;  ///< [C]
   std::vector<uint32_t> bake_us;        ///< [C] time of the bake of the cell, us
   std::vector<float> overestimate;      ///< [C] certified (pvs/visibility.h), 0: nobody looked
-  std::vector<uint64_t> row_begin;      ///< [R+1]
-  std::vector<PvsEntry> entries;        ///< [K]
-  std::string
-      content_digest;  ///< 32 hex digits over the logical content; not over bake_us, config and renderer
+  std::vector<uint32_t> cell_worker;  ///< [C] number in `workers` or no_worker; empty: the file does not say
+  std::vector<std::string> workers;   ///< names of those who baked
+  std::vector<uint64_t> row_begin;    ///< [R+1]
+  std::vector<PvsEntry> entries;      ///< [K]
+  std::string content_digest;  ///< 32 hex digits over the logical content; not over bake_us, workers, config
+                               ///< and renderer
 
   /// What a verification of this content found; none: nobody looked, or nobody stored it.
   std::optional<Verification> verification;
@@ -75,17 +79,19 @@ PvsFile read_pvs(const std::filesystem::path& file);
 struct BakedCell {
   CellStatus status = CellStatus::all_visible;
   uint32_t bake_us = 0;
-  PvsRow row;              ///< of an all-visible cell it is not looked at: all objects are in it
-  float overestimate = 0;  ///< certified; 0: nobody looked
+  PvsRow row;                   ///< of an all-visible cell it is not looked at: all objects are in it
+  float overestimate = 0;       ///< certified; 0: nobody looked
+  uint32_t worker = no_worker;  ///< who baked it, as a number in the writer's list of names
 };
 using CellSource = std::function<BakedCell(uint32_t cell)>;
 
 /// Writes a complete file, as yet without a verification, to a temporary name beside `file`, reads it back,
 /// compares the digests, syncs and renames. Equal rows are stored once. `header.complete` is set from the
-/// statuses seen. \return the content digest. \throw Error(input_output) when the disk is full or not
+/// statuses seen. Of what `workers` names, the file says who baked each cell; without a name it does not.
+/// \return the content digest. \throw Error(input_output) when the disk is full or not
 /// writable; nothing is left behind.
 std::string write_pvs(const std::filesystem::path& file, const City& city, const PvsHeader& header,
-                      const CellSource& cells);
+                      const CellSource& cells, const std::vector<std::string>& workers = {});
 
 /// How far a long work has come, for who waits: what it does now, and done of total.
 using WorkHeard = std::function<void(const char* what, uint64_t done, uint64_t total)>;
@@ -106,7 +112,7 @@ CityOutline read_city_outline(const std::filesystem::path& city_file, const Work
 /// file. For each cell 21 to 27 bytes are kept, and 4 for each object.
 std::string write_pvs(const std::filesystem::path& file, const std::filesystem::path& city_file,
                       const CityOutline& city, const PvsHeader& header, const CellSource& cells,
-                      const WorkHeard& heard = {});
+                      const WorkHeard& heard = {}, const std::vector<std::string>& workers = {});
 
 /// The prepared city (`prepared/city.h5`): the same layout without /pvs and /cells rows, with the same
 /// checks.

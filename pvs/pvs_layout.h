@@ -87,6 +87,11 @@ inline constexpr Column cell_overestimate{
     "/cells/overestimate", Element::f32, 1,
     "[C] objects of the row over objects that rays from the cell met, at least 1: an upper bound of the "
     "row's excess over the exact one; 0 where nobody looked"};
+inline constexpr Column cell_worker{"/cells/worker", Element::u32, 1,
+                                    "[C] who baked each cell: number of a name in worker_name; 4294967295 "
+                                    "for a cell that nobody baked. May be missing"};
+inline constexpr Column worker_name{"/cells/worker_name", Element::text, 1,
+                                    "[W] name of each that baked cells. There with worker alone"};
 inline constexpr Column pvs_begin{"/pvs/begin", Element::u64, 1,
                                   "[R+1] entries of row r are begin[r] to begin[r+1]-1"};
 inline constexpr Column pvs_object{"/pvs/object", Element::u32, 1, "[K] visible objects, ascending in a row"};
@@ -123,14 +128,17 @@ inline constexpr Column witness_gap{"/verification/examples/gap", Element::f32, 
                                     "from the eye, m; 0, 0: false invisible"};
 
 inline constexpr const Column* all[] = {
-    &vertices,         &triangles,          &material,       &triangle_slice,       &object_name,
-    &object_kind,      &object_bounds,      &object_begin,   &object_slices,        &part_name,
-    &part_object,      &part_begin,         &part_end,       &cell_bounds,          &free_roots,
-    &free_states,      &free_first_child,   &surface_roots,  &surface_states,       &surface_first_child,
-    &ground_height,    &cell_row,           &cell_bake_us,   &cell_status,          &cell_overestimate,
-    &pvs_begin,        &pvs_object,         &pvs_index,      &verified_cell,        &verified_rays,
-    &verified_objects, &verified_triangles, &verified_false, &verified_solid_angle, &witness_cell,
-    &witness_object,   &witness_triangle,   &witness_ray,    &witness_gap};
+    &vertices,          &triangles,          &material,         &triangle_slice,
+    &object_name,       &object_kind,        &object_bounds,    &object_begin,
+    &object_slices,     &part_name,          &part_object,      &part_begin,
+    &part_end,          &cell_bounds,        &free_roots,       &free_states,
+    &free_first_child,  &surface_roots,      &surface_states,   &surface_first_child,
+    &ground_height,     &cell_row,           &cell_bake_us,     &cell_status,
+    &cell_overestimate, &cell_worker,        &worker_name,      &pvs_begin,
+    &pvs_object,        &pvs_index,          &verified_cell,    &verified_rays,
+    &verified_objects,  &verified_triangles, &verified_false,   &verified_solid_angle,
+    &witness_cell,      &witness_object,     &witness_triangle, &witness_ray,
+    &witness_gap};
 
 /// A forest of octrees in the file: its group, which has its lattice as attributes, and its datasets.
 struct ForestColumns {
@@ -157,10 +165,10 @@ struct RootAttributes {
   std::string content_digest;
 };
 
-/// XXH3-128 over the logical content: dataset digests in the order of their paths without /cells/bake_us and
-/// /verification, and the attributes that give numbers a meaning. Over-estimates belong to it: a reader
-/// relies on them, and on one kind of machine they repeat as the rows do. Not over config, renderer and
-/// fingerprint, which say how it was made.
+/// XXH3-128 over the logical content: dataset digests in the order of their paths without /cells/bake_us,
+/// /cells/worker, /cells/worker_name and /verification, and the attributes that give numbers a meaning.
+/// Over-estimates belong to it: a reader relies on them, and on one kind of machine they repeat as the rows
+/// do. Not over config, renderer and fingerprint, which say how it was made.
 std::string content_digest(const City& city, bool conservative, const ColumnDigests& digests);
 
 /// XXH3-128 over the root's attributes: without it, a flipped bit in a text could go unseen.

@@ -32,9 +32,9 @@ struct PvsIndex {
   std::vector<CellStatus> cell_status;  ///< [C]
   std::vector<uint32_t> bake_us;        ///< [C]
   std::vector<float> overestimate;      ///< [C]
-  std::vector<uint32_t> cell_worker;    ///< [C] index into `workers`; empty: the file does not say
-  std::vector<std::string> workers;     ///< who baked the cells
-  std::vector<uint64_t> row_begin;      ///< [R+1]
+  std::vector<uint32_t> cell_worker;  ///< [C] number in `workers` or no_worker; empty: the file does not say
+  std::vector<std::string> workers;   ///< names of those who baked
+  std::vector<uint64_t> row_begin;    ///< [R+1]
   Navigation navigation;
   std::optional<Verification> verification;
 

@@ -18,7 +18,7 @@ using hdf5::Output;
 /// chance of 10^-21.
 class RowWriter {
  public:
-  RowWriter(Output& output, uint64_t cells, size_t objects)
+  RowWriter(Output& output, uint64_t cells, size_t objects, const std::vector<std::string>& workers)
       : cell_row_(output, column::cell_row, cells),
         bake_us_(output, column::cell_bake_us, cells),
         status_(output, column::cell_status, cells),
@@ -27,6 +27,7 @@ class RowWriter {
         object_(output, column::pvs_object, 0),
         index_(output, column::pvs_index, 0),
         object_count_(objects) {
+    if (!workers.empty()) worker_.emplace(output, column::cell_worker, cells);
     begin_.append(&entries_, 1);
   }
 
@@ -36,6 +37,7 @@ class RowWriter {
     bake_us_.append(&cell.bake_us, 1);
     status_.append(&cell.status, 1);
     overestimate_.append(&cell.overestimate, 1);
+    if (worker_) worker_->append(&cell.worker, 1);
   }
 
   void finish(ColumnDigests& digests) {
@@ -43,6 +45,7 @@ class RowWriter {
     digests[column::cell_bake_us.path] = bake_us_.finish();
     digests[column::cell_status.path] = status_.finish();
     digests[column::cell_overestimate.path] = overestimate_.finish();
+    if (worker_) digests[column::cell_worker.path] = worker_->finish();
     digests[column::pvs_begin.path] = begin_.finish();
     digests[column::pvs_object.path] = object_.finish();
     digests[column::pvs_index.path] = index_.finish();
@@ -80,6 +83,7 @@ class RowWriter {
   }
 
   ColumnWriter cell_row_, bake_us_, status_, overestimate_, begin_, object_, index_;
+  std::optional<ColumnWriter> worker_;
   uint64_t entries_ = 0;
   size_t object_count_;
   std::optional<uint32_t> all_objects_;
@@ -89,11 +93,12 @@ class RowWriter {
 };
 
 BakedCell ask(const CellSource& cells, uint32_t number, const std::vector<SliceCounts>& slices,
-              const std::filesystem::path& file) {
+              size_t workers, const std::filesystem::path& file) {
   BakedCell cell = cells(number);
   const PvsEntry* first = cell.row.data();
   auto defect = find_defect(first, first + cell.row.size(), slices);
   if (!is_overestimate(cell.overestimate)) defect = fmt::format("an over-estimate of {}", cell.overestimate);
+  if (cell.worker >= workers && cell.worker != no_worker) defect = fmt::format("worker {}", cell.worker);
   if (defect)
     throw Error(ExitStatus::defect, fmt::format("{}: cell {}: {}; a defect of the bake, please report it",
                                                 file.string(), number, *defect));
@@ -129,18 +134,23 @@ struct RowsJob {
   const std::vector<SliceCounts>& slices;
   const City& frame;
   const CellSource& cells;
+  const std::vector<std::string>& workers;
   const WorkHeard& heard;
 
   void write_rows(Output& output, RootAttributes& root, ColumnDigests& digests) const {
     output.group("/pvs");
-    RowWriter rows(output, cell_count, slices.size());
+    RowWriter rows(output, cell_count, slices.size(), workers);
     for (uint32_t c = 0; c < cell_count; ++c) {
-      const BakedCell cell = ask(cells, c, slices, file);
+      const BakedCell cell = ask(cells, c, slices, workers.size(), file);
       if (cell.status != CellStatus::baked) root.header.complete = false;
       rows.add(cell);
       if (heard) heard("rows", c + 1, cell_count);
     }
     rows.finish(digests);
+    if (!workers.empty())
+      digests[column::worker_name.path] =
+          hdf5::write_texts(output, column::worker_name, workers.size(),
+                            [&](size_t i) -> const std::string& { return workers[i]; });
   }
 
   std::string write(const PvsHeader& header,
@@ -167,9 +177,9 @@ struct RowsJob {
 }  // namespace
 
 std::string write_pvs(const std::filesystem::path& file, const City& city, const PvsHeader& header,
-                      const CellSource& cells) {
+                      const CellSource& cells, const std::vector<std::string>& workers) {
   refuse_defects(city, file);
-  RowsJob job{file, city.cells.size(), city.slices, city, cells, {}};
+  RowsJob job{file, city.cells.size(), city.slices, city, cells, workers, {}};
   return job.write(header, [&](Output& output, ColumnDigests& digests) {
     output.require_space(least_bytes(city));
     write_scene_columns(output, city, digests);
@@ -179,8 +189,8 @@ std::string write_pvs(const std::filesystem::path& file, const City& city, const
 
 std::string write_pvs(const std::filesystem::path& file, const std::filesystem::path& city_file,
                       const CityOutline& city, const PvsHeader& header, const CellSource& cells,
-                      const WorkHeard& heard) {
-  RowsJob job{file, city.cells, city.slices, city.frame, cells, heard};
+                      const WorkHeard& heard, const std::vector<std::string>& workers) {
+  RowsJob job{file, city.cells, city.slices, city.frame, cells, workers, heard};
   return job.write(header, [&](Output& output, ColumnDigests& digests) {
     const hdf5::Input input(city_file);
     output.copy(input, "/scene");

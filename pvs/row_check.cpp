@@ -24,6 +24,7 @@ Defect check_cells(const File& of, size_t cells, uint64_t entries) {
   if (of.cell_status.size() != cells) return "/cells/status: not one for each cell";
   if (of.bake_us.size() != cells) return "/cells/bake_us: not one for each cell";
   if (of.overestimate.size() != cells) return "/cells/overestimate: not one for each cell";
+  if (!of.workers.empty() && of.cell_worker.size() != cells) return "/cells/worker: not one for each cell";
   if (of.row_begin.empty() || of.row_begin.front() != 0 || of.row_begin.back() != entries)
     return "/pvs/begin: does not span the entries";
   const size_t rows = of.row_begin.size() - 1;
@@ -33,6 +34,8 @@ Defect check_cells(const File& of, size_t cells, uint64_t entries) {
       return fmt::format("/cells/status: cell {}: unknown status", c);
     if (!is_overestimate(of.overestimate[c]))
       return fmt::format("/cells/overestimate: cell {}: neither 0 nor at least 1", c);
+    if (!of.workers.empty() && of.cell_worker[c] >= of.workers.size() && of.cell_worker[c] != no_worker)
+      return fmt::format("/cells/worker: cell {} names a worker that is not there", c);
   }
   for (size_t r = 0; r < rows; ++r)
     if (of.row_begin[r] > of.row_begin[r + 1] || of.row_begin[r + 1] > entries)

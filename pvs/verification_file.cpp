@@ -164,7 +164,7 @@ namespace {
 ColumnDigests stored_digests(const Input& input) {
   ColumnDigests digests;
   for (const Column* column : column::all)
-    if (!std::string_view(column->path).starts_with("/verification/"))
+    if (!std::string_view(column->path).starts_with("/verification/") && input.has(column->path))
       digests[column->path] = input.text(column->path, "digest");
   return digests;
 }

@@ -38,6 +38,8 @@ bool reads_as(const std::filesystem::path& file, const std::string& bytes, const
     EXPECT_EQ(got.bake_us, written.bake_us);
     EXPECT_EQ(got.overestimate, written.overestimate);
     EXPECT_EQ(got.cell_status, written.cell_status);
+    EXPECT_EQ(got.cell_worker, written.cell_worker);
+    EXPECT_EQ(got.workers, written.workers);
     EXPECT_EQ(got.city.cells, written.city.cells);
     EXPECT_EQ(got.city.scene.vertices, written.city.scene.vertices);
     EXPECT_EQ(got.city.scene.triangles, written.city.scene.triangles);
@@ -72,7 +74,8 @@ struct Written {
   std::vector<size_t> of_verification;  ///< and those of them that storing it wrote
   PvsFile content;
   Written() {
-    write_pvs(directory / "a.h5", test::small_city(), test::small_header(), test::small_row);
+    write_pvs(directory / "a.h5", test::small_city(), test::small_header(), test::small_row_of_worker,
+              test::small_workers);
     const std::string before = test::read_bytes(directory / "a.h5");
     store_verification(directory / "a.h5", read_pvs(directory / "a.h5"), test::small_verification());
     bytes = test::read_bytes(directory / "a.h5");

@@ -49,7 +49,7 @@ class PvsStreamDamage : public testing::Test {
  protected:
   PvsStreamDamage() {
     const std::filesystem::path file = directory_ / "a.h5";
-    write_pvs(file, test::small_city(), test::small_header(), test::small_row);
+    write_pvs(file, test::small_city(), test::small_header(), test::small_row_of_worker, test::small_workers);
     store_verification(file, read_pvs(file), test::small_verification());
     bytes_ = test::read_bytes(file);
     content_ = read_pvs(file);

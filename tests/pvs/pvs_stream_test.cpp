@@ -86,6 +86,14 @@ TEST(PvsStream, OfASmallFileIsWhatIsReadWhole) {
   EXPECT_EQ(PvsStream(directory / "a.h5").index().row_size(2), 2u);
 }
 
+TEST(PvsStream, SaysWhoBaked) {
+  TemporaryDirectory directory;
+  write_pvs(directory / "a.h5", test::small_city(), test::small_header(), test::small_row_of_worker,
+            test::small_workers);
+  expect_same_file(directory / "a.h5", 3);
+  EXPECT_EQ(PvsStream(directory / "a.h5").index().workers, test::small_workers);
+}
+
 TEST(PvsStream, EveryRunOfObjects) {
   TemporaryDirectory directory;
   write_pvs(directory / "a.h5", test::small_city(), test::small_header(), test::small_row);

@@ -91,6 +91,14 @@ inline BakedCell small_row(uint32_t c) {
   return cell;
 }
 
+/// The same, baked by two in turn; nobody baked cell 4.
+inline BakedCell small_row_of_worker(uint32_t c) {
+  BakedCell cell = small_row(c);
+  cell.worker = c == 4 ? no_worker : c % 2;
+  return cell;
+}
+inline const std::vector<std::string> small_workers = {"0001-r0-w0", "werker-\xc3\xa9"};
+
 inline PvsHeader small_header() {
   return {"00112233445566778899aabbccddeeff", "[scene]\nmodel = [\"a.json\"]\n", "llvmpipe", false, true};
 }

@@ -33,6 +33,8 @@ inline void expect_same_index(const PvsIndex& index, const PvsFile& file) {
   EXPECT_EQ(index.cell_status, file.cell_status);
   EXPECT_EQ(index.bake_us, file.bake_us);
   EXPECT_EQ(index.overestimate, file.overestimate);
+  EXPECT_EQ(index.cell_worker, file.cell_worker);
+  EXPECT_EQ(index.workers, file.workers);
   EXPECT_EQ(index.row_begin, file.row_begin);
   EXPECT_EQ(index.navigation.free, file.city.navigation.free);
   EXPECT_EQ(index.navigation.surfaces, file.city.navigation.surfaces);
