@@ -10,6 +10,7 @@
 #include <glm/common.hpp>
 #include <string_view>
 
+#include "scene/atomic_file.h"
 #include "scene/error.h"
 #include "scene/text.h"
 
@@ -70,6 +71,24 @@ std::vector<Pose> read_path(const std::filesystem::path& file) {
   return path;
 }
 
+void write_path(const std::filesystem::path& file, const std::vector<Pose>& path) {
+  write_atomically(file, [&](const std::filesystem::path& part) {
+    std::ofstream stream(part);
+    stream << header << '\n';
+    // The shortest texts that are read back as the same numbers.
+    for (const Pose& pose : path)
+      stream << fmt::format("{},{},{},{},{}\n", pose.position_m.x, pose.position_m.y, pose.position_m.z,
+                            pose.yaw_deg, pose.pitch_deg);
+    if (!stream.flush()) throw Error(ExitStatus::input_output, file.string() + ": cannot be written");
+  });
+}
+
+Pose between(const Pose& a, const Pose& b, float part) {
+  return {glm::mix(a.position_m, b.position_m, part),
+          a.yaw_deg + part * std::remainder(b.yaw_deg - a.yaw_deg, 360.0f),
+          glm::mix(a.pitch_deg, b.pitch_deg, part)};
+}
+
 std::vector<Pose> resample(const std::vector<Pose>& path, size_t frames) {
   std::vector<Pose> result;
   result.reserve(frames);
@@ -80,10 +99,7 @@ std::vector<Pose> resample(const std::vector<Pose>& path, size_t frames) {
     const size_t before = std::min(static_cast<size_t>(along), path.size() - 1);
     const size_t after = std::min(before + 1, path.size() - 1);
     const float part = static_cast<float>(along - static_cast<double>(before));
-    const Pose &a = path[before], &b = path[after];
-    result.push_back({glm::mix(a.position_m, b.position_m, part),
-                      a.yaw_deg + part * std::remainder(b.yaw_deg - a.yaw_deg, 360.0f),
-                      glm::mix(a.pitch_deg, b.pitch_deg, part)});
+    result.push_back(between(path[before], path[after], part));
   }
   return result;
 }

@@ -79,5 +79,18 @@ TEST_F(PathTest, ResamplesAlongTheWholePathTurningTheShortWay) {
   EXPECT_EQ(resample({path[0]}, 3).size(), 3u);
 }
 
+TEST_F(PathTest, WritesWhatItReads) {
+  const std::vector<Pose> path{{{0.1f, -1e-7f, 78123.453f}, 179.99f, -89}, {{1e9f, 0, -3}, -180, 90}};
+  write_path(folder_ / "written.csv", path);
+  const std::vector<Pose> read = read_path(folder_ / "written.csv");
+  ASSERT_EQ(read.size(), path.size());
+  for (size_t i = 0; i < path.size(); ++i) {
+    EXPECT_EQ(read[i].position_m, path[i].position_m);
+    EXPECT_EQ(read[i].yaw_deg, path[i].yaw_deg);
+    EXPECT_EQ(read[i].pitch_deg, path[i].pitch_deg);
+  }
+  EXPECT_THROW(write_path(folder_ / "missing" / "written.csv", path), Error);
+}
+
 }  // namespace
 }  // namespace veduta
