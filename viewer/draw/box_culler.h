@@ -4,8 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <glm/vec3.hpp>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "scene/box.h"
@@ -13,41 +14,30 @@
 
 namespace veduta {
 
-/// Boxes by number, eight side by side, so that plain loops over them become vector instructions.
-class BoxBlocks {
- public:
-  static constexpr size_t width = 8;
-  /// Bounds of eight boxes: lower x, y, z, then upper x, y, z.
-  struct alignas(32) Block {
-    std::array<std::array<float, width>, 6> side;
-  };
+/// Bounds of up to 64 boxes side by side, so that plain loops over them become vector instructions.
+struct BoxBatch {
+  static constexpr size_t capacity = 64;
+  std::array<std::array<float, capacity>, 6> side;  ///< lower x, y, z, then upper x, y, z
 
-  explicit BoxBlocks(const std::vector<Box>& boxes);
-
-  const Block& operator[](size_t block) const { return blocks_[block]; }
-  /// Of any coordinate of the boxes, by axis.
-  const std::array<double, 3>& largest() const { return largest_; }
-
- private:
-  std::vector<Block> blocks_;
-  std::array<double, 3> largest_{0, 0, 0};
+  void set(size_t i, const Box& box) {
+    side[0][i] = box.lower.x, side[1][i] = box.lower.y, side[2][i] = box.lower.z;
+    side[3][i] = box.upper.x, side[4][i] = box.upper.y, side[5][i] = box.upper.z;
+  }
 };
+
+/// The largest distance of any coordinate of the boxes from 0, by axis.
+glm::dvec3 largest_coordinates(std::span<const Box> boxes);
 
 /// Tests the boxes of one frame. It is in single precision, with planes moved outwards by more than that can
 /// round, so it calls no box outside that Frustum::outside() does not.
 class BoxCuller {
  public:
-  /// `boxes` has to outlive it. No frusta: nothing is outside.
-  BoxCuller(const BoxBlocks& boxes, std::span<const Frustum> frusta);
+  /// `largest`: of all boxes to come. No frusta: nothing is outside.
+  BoxCuller(std::span<const Frustum> frusta, const glm::dvec3& largest);
 
-  /// Is the box wholly outside a plane of every frustum? Eight boxes whose numbers follow each other are
-  /// tested at once, so ask by ascending number.
-  bool outside(uint32_t box) {
-    if (planes_.empty()) return false;
-    const size_t block = box / BoxBlocks::width;
-    if (block != tested_) test(block);
-    return nearest_[box % BoxBlocks::width] < 0;
-  }
+  /// Below 0 for each box of the batch that is wholly outside a plane of every frustum.
+  using Nearest = std::array<float, BoxBatch::capacity>;
+  Nearest test(const BoxBatch& boxes) const;
 
  private:
   // normal[axis] times the box's side[side_of[axis]], its farthest corner to the inside.
@@ -56,14 +46,9 @@ class BoxCuller {
     std::array<uint8_t, 3> side_of;
     float offset;
   };
-  static constexpr size_t planes_each = std::tuple_size_v<decltype(Frustum::planes)>;
+  static Nearest inside(const Plane& plane, const BoxBatch& boxes);
 
-  void test(size_t block);
-
-  const BoxBlocks& boxes_;
-  std::vector<std::array<Plane, planes_each>> planes_;  ///< of each frustum
-  size_t tested_ = std::numeric_limits<size_t>::max();
-  alignas(32) std::array<float, BoxBlocks::width> nearest_{};  ///< of the tested block: below 0 is outside
+  std::vector<std::array<Plane, std::tuple_size_v<decltype(Frustum::planes)>>> planes_;  ///< of each frustum
 };
 
 }  // namespace veduta

@@ -1,12 +1,20 @@
 #include "viewer/draw/command_list.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
 namespace veduta {
 
 CommandLister::CommandLister(const PvsIndex& index, const std::vector<PageSpan>& pages)
-    : bounds_(index.bounds), pages_(pages), page_of_(index.objects.size()), here_(pages.size()) {
+    : index_(index),
+      largest_m_(largest_coordinates(index.bounds)),
+      all_bounds_((index.bounds.size() + BoxBatch::capacity - 1) / BoxBatch::capacity),
+      pages_(pages),
+      page_of_(index.objects.size()),
+      here_(pages.size()) {
+  for (size_t object = 0; object < index.bounds.size(); ++object)
+    all_bounds_[object / BoxBatch::capacity].set(object % BoxBatch::capacity, index.bounds[object]);
   for (uint32_t page = 0; page < pages_.size(); ++page)
     for (uint32_t object = pages_[page].first_object; object < pages_[page].last_object; ++object)
       page_of_[object] = page;
@@ -21,11 +29,10 @@ void CommandLister::remove(uint32_t page) {
 }
 
 CommandList CommandLister::list(const VisibleObjects& visible, std::span<const Frustum> frusta) const {
+  const BoxCuller culler(frusta, largest_m_);
   CommandList list;
-  BoxCuller culler(bounds_, frusta);
   uint32_t last = std::numeric_limits<uint32_t>::max();
-  const auto consider = [&](const PvsEntry& entry) {
-    if (culler.outside(entry.object)) return;
+  const auto draw = [&](const PvsEntry& entry) {
     const uint32_t page = page_of_[entry.object];
     uint32_t& count = here_[page].here ? list.objects : list.absent;
     if (entry.object != last) ++count;
@@ -33,10 +40,33 @@ CommandList CommandLister::list(const VisibleObjects& visible, std::span<const F
     if (here_[page].here) add(page, entry, list);
   };
   if (visible.everything)
-    for (uint32_t object = 0; object < page_of_.size(); ++object) consider({object, completely_visible});
+    for_all_inside(culler, draw);
   else
-    for (const PvsEntry& entry : visible.entries) consider(entry);
+    for_entries_inside(culler, visible.entries, draw);
   return list;
+}
+
+template <typename Draw>
+void CommandLister::for_all_inside(const BoxCuller& culler, const Draw& draw) const {
+  for (size_t begin = 0; begin < page_of_.size(); begin += BoxBatch::capacity) {
+    const BoxCuller::Nearest nearest = culler.test(all_bounds_[begin / BoxBatch::capacity]);
+    const size_t count = std::min(BoxBatch::capacity, page_of_.size() - begin);
+    for (size_t i = 0; i < count; ++i)
+      if (nearest[i] >= 0) draw({static_cast<uint32_t>(begin + i), completely_visible});
+  }
+}
+
+template <typename Draw>
+void CommandLister::for_entries_inside(const BoxCuller& culler, std::span<const PvsEntry> entries,
+                                       const Draw& draw) const {
+  BoxBatch bounds{};
+  for (; !entries.empty(); entries = entries.subspan(std::min(BoxBatch::capacity, entries.size()))) {
+    const size_t count = std::min(BoxBatch::capacity, entries.size());
+    for (size_t i = 0; i < count; ++i) bounds.set(i, index_.bounds[entries[i].object]);
+    const BoxCuller::Nearest nearest = culler.test(bounds);
+    for (size_t i = 0; i < count; ++i)
+      if (nearest[i] >= 0) draw(entries[i]);
+  }
 }
 
 void CommandLister::add(uint32_t page, const PvsEntry& entry, CommandList& list) const {

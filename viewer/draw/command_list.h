@@ -58,8 +58,14 @@ class CommandLister {
     SliceRanges ranges;
   };
   void add(uint32_t page, const PvsEntry& entry, CommandList& list) const;
+  template <typename Draw>
+  void for_all_inside(const BoxCuller& culler, const Draw& draw) const;
+  template <typename Draw>
+  void for_entries_inside(const BoxCuller& culler, std::span<const PvsEntry> entries, const Draw& draw) const;
 
-  BoxBlocks bounds_;  ///< of the objects
+  const PvsIndex& index_;
+  glm::dvec3 largest_m_;              ///< coordinates of the objects
+  std::vector<BoxBatch> all_bounds_;  ///< of all objects, by number
   std::vector<PageSpan> pages_;
   std::vector<uint32_t> page_of_;  ///< [N]
   std::vector<Here> here_;         ///< [pages]
