@@ -91,6 +91,7 @@ PvsStream::PvsStream(PvsStream&&) noexcept = default;
 PvsStream& PvsStream::operator=(PvsStream&&) noexcept = default;
 
 PvsRow PvsStream::read_row(uint32_t row) const {
+  hdf5::prepare_library();  // its settings are a thread's own
   const uint64_t first = index_.row_begin[row], count = index_.row_begin[row + 1] - first;
   if (count > index_.objects.size())
     open_->input.fail(column::pvs_begin.path, fmt::format("row {} lists more than there are objects", row));
@@ -104,6 +105,7 @@ PvsRow PvsStream::read_row(uint32_t row) const {
 }
 
 City PvsStream::read_objects(uint32_t first, uint32_t last) const {
+  hdf5::prepare_library();
   const Input& input = open_->input;
   City city;
   Scene& scene = city.scene;

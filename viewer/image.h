@@ -14,6 +14,12 @@ struct Image {
   bool operator==(const Image&) const = default;
 };
 
+/// Two pictures of equal size, side by side.
+Image beside(const Image& left, const Image& right);
+
+/// Of two pictures of equal size.
+uint64_t pixels_that_differ(const Image& a, const Image& b);
+
 /// Writes a PNG to a temporary name beside `file` and renames it.
 /// \throw Error(input_output) when it cannot be written; nothing is left behind.
 void write_png(const std::filesystem::path& file, const Image& image);

@@ -39,25 +39,25 @@ std::array<float, directions> free_lengths(const OctreeForest& free, const glm::
 
 // How much of the horizon the visible buildings fill in each direction: sums of their apparent widths,
 // radians.
-std::array<float, directions> built_horizon(const PvsFile& file, const std::vector<Box>& bounds,
-                                            uint32_t cell, const glm::vec3& eye) {
+std::array<float, directions> built_horizon(const PvsIndex& index, const PvsRow& row, const glm::vec3& eye) {
   std::array<float, directions> built{};
-  for (const PvsEntry& entry : file.row(cell)) {
-    if (file.city.scene.objects[entry.object].kind != Kind::building) continue;
-    const glm::vec3 away = bounds[entry.object].center() - eye;
+  for (const PvsEntry& entry : row) {
+    if (index.objects[entry.object].kind != Kind::building) continue;
+    const Box& bounds = index.bounds[entry.object];
+    const glm::vec3 away = bounds.center() - eye;
     const float distance_m = std::max(glm::length(glm::vec2(away)), 5.0f);
     const float turn = glm::degrees(std::atan2(away.y, away.x)) / 360.0f + 1.0f;
     const auto d = static_cast<size_t>(std::lround(turn * directions)) % directions;
-    built[d] += std::min(1.0f, glm::length(glm::vec2(bounds[entry.object].half_extent())) / distance_m);
+    built[d] += std::min(1.0f, glm::length(glm::vec2(bounds.half_extent())) / distance_m);
   }
   return built;
 }
 
 // The best direction of a cell: a long view with some space beside it, and buildings on both sides.
-Candidate rate(const PvsFile& file, const std::vector<Box>& bounds, uint32_t cell) {
-  const glm::vec3 eye = file.city.cells[cell].center();
-  const auto length = free_lengths(file.city.navigation.free, eye);
-  const auto built = built_horizon(file, bounds, cell, eye);
+Candidate rate(const PvsIndex& index, const PvsRow& row, uint32_t cell) {
+  const glm::vec3 eye = index.cells[cell].center();
+  const auto length = free_lengths(index.navigation.free, eye);
+  const auto built = built_horizon(index, row, eye);
   Candidate best{cell, {eye, 0, upwards_deg}, -1};
   for (size_t d = 0; d < directions; ++d) {
     const auto beside = [&](const std::array<float, directions>& of, size_t by) {
@@ -76,14 +76,14 @@ Candidate rate(const PvsFile& file, const std::vector<Box>& bounds, uint32_t cel
   return best;
 }
 
-std::vector<Candidate> candidates(const PvsFile& file) {
-  std::vector<Box> bounds;
-  for (size_t o = 0; o < file.city.scene.objects.size(); ++o) bounds.push_back(file.city.scene.bounds(o));
-  const size_t cells = file.city.cells.size();
+std::vector<Candidate> candidates(const PvsIndex& index, const std::function<PvsRow(uint32_t)>& row) {
+  const size_t cells = index.cells.size();
   const size_t stride = std::max<size_t>(1, cells / most_candidates);
   std::vector<Candidate> rated;
-  for (size_t cell = 0; cell < cells; cell += stride)
-    rated.push_back(rate(file, bounds, static_cast<uint32_t>(cell)));
+  for (size_t cell = 0; cell < cells; cell += stride) {
+    const auto number = static_cast<uint32_t>(cell);
+    rated.push_back(rate(index, row(number), number));
+  }
   std::stable_sort(rated.begin(), rated.end(),
                    [](const auto& a, const auto& b) { return a.score > b.score; });
   return rated;
@@ -91,8 +91,9 @@ std::vector<Candidate> candidates(const PvsFile& file) {
 
 }  // namespace
 
-std::vector<Pose> make_tour(const PvsFile& file, size_t frames) {
-  std::vector<Candidate> rated = candidates(file), chosen;
+std::vector<Pose> make_tour(const PvsIndex& index, const std::function<PvsRow(uint32_t)>& row,
+                            size_t frames) {
+  std::vector<Candidate> rated = candidates(index, row), chosen;
   Box extent;
   for (const Candidate& candidate : rated) extent.extend(candidate.pose.position_m);
   // The best first, then the best of those far enough from all before; nearer ones only when those run out.

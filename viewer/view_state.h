@@ -47,7 +47,7 @@ struct FrameStats {
   int64_t cell = -1;       ///< of the midpoint of the eyes (of the frozen pose, where there is one); -1: none
   bool all_drawn = false;  ///< no row holds there: nothing was left out but by the frustum
   bool waiting = false;    ///< a row or geometry that should be drawn is not here yet
-  uint32_t objects = 0;    ///< drawn, both eyes together as many as were in their lists
+  uint32_t objects = 0;    ///< drawn, of the eye that has most
   uint64_t triangles = 0;  ///< drawn, over all eyes
   uint32_t draws = 0;      ///< commands, over all eyes
   double cull_ms = 0;      ///< look-up and culling

@@ -11,10 +11,9 @@
 
 #include "gl/egl_context.h"
 #include "scene/text.h"
-#include "viewer/active_cells.h"
-#include "viewer/compose.h"
-#include "viewer/draw_list.h"
-#include "viewer/renderer.h"
+#include "viewer/city_pages.h"
+#include "viewer/draw/composer.h"
+#include "viewer/draw/offscreen.h"
 
 namespace veduta {
 namespace {
@@ -50,12 +49,12 @@ Witness witness_of(const json& example) {
   return w;
 }
 
-std::vector<Witness> read_report(const PvsFile& file, const std::string& name) {
+std::vector<Witness> read_report(const PvsIndex& index, const std::string& name) {
   const InputFile input = read_input(name);
   Verification found;
   try {
     const json report = json::parse(input.content());
-    if (report.at("content_digest").get<std::string>() != file.content_digest)
+    if (report.at("content_digest").get<std::string>() != index.content_digest)
       throw bad_input(name, "content_digest", "is about another bake; verify this one");
     for (const char* list : {"examples", "narrow_gap_examples"})
       for (const json& example : report.at(list)) found.witnesses.push_back(witness_of(example));
@@ -64,31 +63,22 @@ std::vector<Witness> read_report(const PvsFile& file, const std::string& name) {
   } catch (const std::invalid_argument& error) {
     throw bad_input(name, "file", std::string("is no report of veduta verify --json: ") + error.what());
   }
-  if (const auto defect = find_defect(found, file.city.cells.size(), file.city.scene.objects))
+  if (const auto defect = find_defect(found, index.cells.size(), index.objects))
     throw bad_input(name, "examples", *defect);
   return found.witnesses;
 }
 
-uint64_t pixels_that_differ(const Image& a, const Image& b) {
-  uint64_t count = 0;
-  for (size_t p = 0; p < a.rgb.size(); p += 3)
-    count +=
-        !std::equal(a.rgb.begin() + static_cast<ptrdiff_t>(p), a.rgb.begin() + static_cast<ptrdiff_t>(p + 3),
-                    b.rgb.begin() + static_cast<ptrdiff_t>(p));
-  return count;
-}
-
 }  // namespace
 
-Witness find_witness(const PvsFile& file, const std::string& name, const std::string& which) {
+Witness find_witness(const PvsIndex& index, const std::string& name, const std::string& which) {
   const size_t colon = which.rfind(':');
   const bool from_report = colon != std::string::npos;
   const size_t number = number_of(from_report ? which.substr(colon + 1) : which);
-  if (!from_report && !file.verification)
+  if (!from_report && !index.verification)
     throw Error(ExitStatus::usage,
                 fmt::format("{}: holds no verification; run veduta verify --store on it", name));
   const std::vector<Witness> all =
-      from_report ? read_report(file, which.substr(0, colon)) : file.verification->witnesses;
+      from_report ? read_report(index, which.substr(0, colon)) : index.verification->witnesses;
   if (number >= all.size())
     throw Error(ExitStatus::usage,
                 all.empty()
@@ -103,34 +93,45 @@ Pose pose_of(const Witness& witness) {
           glm::degrees(std::asin(std::clamp(d.z, -1.0f, 1.0f)))};
 }
 
-float fov_of(const Witness& witness, const City& city) {
+float fov_of(const Witness& witness, const CitySource& source) {
+  const City city = source.read_objects(witness.object, witness.object + 1);
+  const uint64_t triangle = witness.triangle - source.index().objects[witness.object].triangle_begin;
   float widest = 0;  // of the triangle, around the ray, radians
   for (int k = 0; k < 3; ++k) {
-    const glm::vec3 to = city.scene.vertices[city.scene.triangles[witness.triangle][k]] - witness.eye;
+    const glm::vec3 to = city.scene.vertices[city.scene.triangles[triangle][k]] - witness.eye;
     const float across = glm::length(glm::cross(witness.direction, to));
     widest = std::max(widest, std::atan2(across, glm::dot(witness.direction, to)));
   }
   return std::clamp(around * glm::degrees(widest), narrowest_deg, widest_deg);
 }
 
-WitnessPicture draw_witness(const PvsFile& file, const Witness& witness, const ViewOptions& options) {
-  Optics optics = options.optics;
-  optics.aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
+WitnessPicture draw_witness(std::unique_ptr<const CitySource> source, const Witness& witness,
+                            const HeadlessOptions& options, uint64_t memory_bytes) {
   const EglContext context(options.gpu);
-  const IndexRanges ranges(file.city);
-  const DrawLister lister(file.city, ranges);
-  Renderer renderer(file.city, ranges, options.width, options.height, options.samples);
-
   // The row of its own cell: the eye may lie on a face that two cells share.
-  ActiveCells row, everything;
+  VisibleObjects row, everything;
   row.cell = witness.cell;
-  row.entries.assign(file.row(witness.cell).begin(), file.row(witness.cell).end());
+  row.entries = source->read_row(source->index().cell_row[witness.cell]);
   everything.everything = true;
+
+  CityStream stream(std::move(source), memory_bytes);
+  CityPages city(stream, options.frame.samples);
+  city.fetch({witness.eye, {}, {}, true});
+  Optics optics = options.begin.optics;
+  optics.aspect = static_cast<float>(options.picture.x) / static_cast<float>(options.picture.y);
   const EyeView view = eye_view(pose_of(witness), optics, Eye::middle);
-  renderer.draw(view, lister.list(row, nullptr));
-  const Image drawn = renderer.read();
-  renderer.draw_missing(view, lister.list(everything, nullptr));
-  const Image with_missing = renderer.read();
+  const Offscreen target(options.picture);
+  const auto draw = [&](bool missing) {
+    city.painter().begin({&view, 1}, options.picture.x, options.picture.y);
+    const CommandList list = city.lister().list(row, {}), all = city.lister().list(everything, {});
+    city.painter().draw_city({&list, 1});
+    if (missing) city.painter().draw_missing({&all, 1});
+    city.painter().draw_sky();
+    Composer().compose(StereoMode::mono, false, city.painter().end(),
+                       {target.framebuffer(), target.size(), {0, 0}});
+    return read_picture(target.framebuffer(), target.size());
+  };
+  const Image drawn = draw(false), with_missing = draw(true);
   return {beside(drawn, with_missing), pixels_that_differ(drawn, with_missing)};
 }
 

@@ -23,7 +23,7 @@ class BadViewInput : public testing::Test {
   void SetUp() override {
     std::filesystem::create_directory(directory_ / "work");
     write_pvs(at("good.h5"), test::small_city(), test::small_header(), test::small_row);
-    write("good.csv", std::string(header) + "5,-5,1.5,0,0\r\n\n15,-5,1.5,350,-90\n");
+    write("good.csv", std::string(header) + "15,-5,1.5,0,0\r\n\n5,-5,1.5,350,-90\n");
   }
 
   std::string at(const std::string& name) const { return directory_ / "work" / name; }

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include "scene/error.h"
-#include "viewer/compose.h"
 
 namespace veduta {
 namespace {
@@ -59,34 +58,21 @@ TEST_F(ImageTest, AFailureIsAnErrorAndLeavesNothing) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1);
 }
 
-TEST(Compose, PutsTheLeftEyeFirst) {
-  const std::vector<Image> pictures{plain(4, 3, {1, 1, 1}), plain(4, 3, {2, 2, 2})};
-  const Image beside = compose(StereoMode::side_by_side, pictures);
-  ASSERT_EQ(beside.width, 8u);
-  ASSERT_EQ(beside.height, 3u);
-  EXPECT_EQ(pixel(beside, 3, 2)[0], 1);
-  EXPECT_EQ(pixel(beside, 4, 2)[0], 2);
-  const Image above = compose(StereoMode::top_bottom, pictures);
-  ASSERT_EQ(above.width, 4u);
-  ASSERT_EQ(above.height, 6u);
-  EXPECT_EQ(pixel(above, 0, 2)[0], 1);
-  EXPECT_EQ(pixel(above, 0, 3)[0], 2);
-  EXPECT_EQ(compose(StereoMode::mono, {pictures[0]}), pictures[0]);
+TEST(Image, BesideOneAnother) {
+  Image left = plain(4, 3, {1, 1, 1}), right = plain(4, 3, {2, 2, 2});
+  const Image both = beside(left, right);
+  ASSERT_EQ(both.width, 8u);
+  ASSERT_EQ(both.height, 3u);
+  EXPECT_EQ(pixel(both, 3, 2)[0], 1);
+  EXPECT_EQ(pixel(both, 4, 2)[0], 2);
 }
 
-TEST(Compose, AnaglyphSendsTheLeftEyeToRedAndTheRightToCyan) {
-  const Image white = plain(2, 2, {255, 255, 255}), black = plain(2, 2, {0, 0, 0});
-  const auto left_only = pixel(compose(StereoMode::anaglyph, {white, black}), 0, 0);
-  EXPECT_GT(left_only[0], 240);
-  EXPECT_LT(left_only[1], 10);
-  EXPECT_LT(left_only[2], 10);
-  const auto right_only = pixel(compose(StereoMode::anaglyph, {black, white}), 0, 0);
-  EXPECT_LT(right_only[0], 10);
-  EXPECT_GT(right_only[1], 240);
-  EXPECT_GT(right_only[2], 240);
-  const auto grey = pixel(
-      compose(StereoMode::anaglyph, {plain(1, 1, {128, 128, 128}), plain(1, 1, {128, 128, 128})}), 0, 0);
-  for (uint8_t channel : grey) EXPECT_NEAR(channel, 128, 4) << "equal pictures stay what they are";
+TEST(Image, PixelsThatDiffer) {
+  const Image one = plain(4, 3, {1, 2, 3});
+  Image other = one;
+  EXPECT_EQ(pixels_that_differ(one, other), 0u);
+  other.rgb[3] = 9, other.rgb[4] = 9, other.rgb.back() = 9;
+  EXPECT_EQ(pixels_that_differ(one, other), 2u) << "channels of a pixel are one";
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ inline PvsIndex make_index(const PvsFile& file) {
   index.overestimate = file.overestimate;
   index.row_begin = file.row_begin;
   index.navigation = file.city.navigation;
+  index.verification = file.verification;
   return index;
 }
 

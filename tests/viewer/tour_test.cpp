@@ -5,10 +5,16 @@
 #include <cmath>
 #include <set>
 
-#include "tests/viewer/toy_city.h"
+#include "tests/viewer/memory_source.h"
 
 namespace veduta {
 namespace {
+
+std::vector<Pose> make_tour(const PvsFile& file, size_t frames) {
+  const toy::MemorySource source(file);
+  const auto row = [&](uint32_t cell) { return source.read_row(source.index().cell_row[cell]); };
+  return make_tour(source.index(), row, frames);
+}
 
 TEST(Tour, LooksAtTheBuildings) {
   const PvsFile file = toy::make_street().file;

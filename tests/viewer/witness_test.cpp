@@ -9,6 +9,7 @@
 
 #include "gl/egl_context.h"
 #include "scene/error.h"
+#include "tests/viewer/memory_source.h"
 #include "tests/viewer/toy_city.h"
 #include "viewer/view_cli.h"
 
@@ -28,7 +29,7 @@ class WitnessTest : public testing::Test {
       witness_.hit += city.scene.vertices[city.scene.triangles[witness_.triangle][k]] / 3.0f;
     witness_.eye = {0.5f, -0.5f, 1.75f};
     witness_.direction = glm::normalize(witness_.hit - witness_.eye);
-    options_.width = 320, options_.height = 240;
+    options_.picture = {320, 240};
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
@@ -53,9 +54,12 @@ class WitnessTest : public testing::Test {
     for (const std::string& word : words) argv.push_back(word.c_str());
     return view_main(static_cast<int>(argv.size()), argv.data());
   }
+  WitnessPicture draw() const {
+    return draw_witness(std::make_unique<toy::MemorySource>(file_), witness_, options_, 64u << 20);
+  }
   ExitStatus status(const std::string& which, std::string* message = nullptr) {
     try {
-      find_witness(file_, "toy.h5", which);
+      find_witness(toy::make_index(file_), "toy.h5", which);
     } catch (const Error& error) {
       if (message) *message = error.what();
       return error.status();
@@ -67,7 +71,7 @@ class WitnessTest : public testing::Test {
       std::filesystem::temp_directory_path() / ("veduta_witness_test_" + std::to_string(getpid()));
   PvsFile file_ = toy::make_street().file;
   Witness witness_;
-  ViewOptions options_;
+  HeadlessOptions options_;
 };
 
 bool is_red(const Image& image, uint32_t x, uint32_t y) {
@@ -78,8 +82,8 @@ bool is_red(const Image& image, uint32_t x, uint32_t y) {
 TEST_F(WitnessTest, WhatTheRowLacksIsRedInTheMiddle) {
   require_gl();
   if (IsSkipped()) return;
-  options_.optics.vertical_fov_deg = fov_of(witness_, file_.city);
-  const WitnessPicture picture = draw_witness(file_, witness_, options_);
+  options_.begin.optics.vertical_fov_deg = fov_of(witness_, toy::MemorySource(file_));
+  const WitnessPicture picture = draw();
   ASSERT_EQ(picture.image.width, 640u);
   uint64_t red = 0, red_left = 0;
   for (uint32_t y = 0; y < 240; ++y)
@@ -98,8 +102,8 @@ TEST_F(WitnessTest, ACompleteRowShowsNoRed) {
   require_gl();
   if (IsSkipped()) return;
   file_ = toy::make_street().file;
-  options_.optics.vertical_fov_deg = 120;
-  EXPECT_EQ(draw_witness(file_, witness_, options_).red_pixels, 0u);
+  options_.begin.optics.vertical_fov_deg = 120;
+  EXPECT_EQ(draw().red_pixels, 0u);
 }
 
 TEST_F(WitnessTest, LooksAlongTheRay) {
@@ -118,7 +122,7 @@ TEST_F(WitnessTest, FindsExamples) {
   EXPECT_EQ(status("0", &message), ExitStatus::usage);
   EXPECT_NE(message.find("nothing to look at"), std::string::npos) << message;
   file_.verification->witnesses = {Witness{}, witness_};
-  EXPECT_EQ(find_witness(file_, "toy.h5", "1"), witness_);
+  EXPECT_EQ(find_witness(toy::make_index(file_), "toy.h5", "1"), witness_);
   for (const char* wrong : {"2", "-1", "1x", "x", "", "99999999999999999999999"})
     EXPECT_EQ(status(wrong), ExitStatus::usage) << wrong;
 }
@@ -135,7 +139,7 @@ TEST_F(WitnessTest, FindsExamplesInAReport) {
   };
   file_.content_digest = "abc";
   write("abc", example);
-  const Witness found = find_witness(file_, "toy.h5", report + ":1");
+  const Witness found = find_witness(toy::make_index(file_), "toy.h5", report + ":1");
   EXPECT_EQ(found.direction, glm::vec3(1, 0, 0));
   EXPECT_EQ(found.triangle, witness_.triangle);
   EXPECT_EQ(found.gap_m, 0.25f);
