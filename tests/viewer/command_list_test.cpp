@@ -157,5 +157,34 @@ TEST_F(CommandListTest, AnObjectOfTwoEntriesCountsOnce) {
   EXPECT_EQ(lister_->list({0, false, false, two}, {}).objects, 1u);
 }
 
+// Triangles at the four corners of an object that is cut once along x and once along z, and some in the lower
+// left one.
+City four_corners(uint64_t more) {
+  City city;
+  city.triangle_slices = {{1, 1, 1, 1, 2, 2}, {2, 2, 1, 1, 2, 2}, {2, 2, 1, 1, 1, 1}};
+  city.triangle_slices.resize(4 + more, {1, 1, 1, 1, 1, 1});
+  city.scene.triangles.resize(4 + more);
+  city.scene.objects = {{"house", Kind::building, 0, 4 + more}};
+  city.slices = {{2, 1, 2}};
+  return city;
+}
+
+TEST(CommandList, AnObjectThatTwoRangesDrawAsOftenAsItIsLargeIsDrawnWhole) {
+  for (uint64_t more : {0u, 3u}) {
+    const City city = four_corners(more);
+    PvsIndex index;
+    index.objects = city.scene.objects, index.slices = city.slices, index.bounds = {{{0, 0, 0}, {1, 1, 1}}};
+    CommandLister lister(index, {{0, 1, 4 + more, {}}});
+    lister.add(0, {0, static_cast<uint32_t>(3 * (4 + more)), 0}, SliceRanges(city));
+    const auto list = [&](VisibilityIndex part) { return lister.list({0, false, false, {{0, part}}}, {}); };
+    // The upper half has 2 triangles, the right half 2; one is in both.
+    EXPECT_EQ(list({-1, 0, 2}).commands.size(), more == 0 ? 1u : 2u);
+    EXPECT_EQ(list({-1, 0, 2}).triangles, 4u);
+    // The left half has the others, too.
+    EXPECT_EQ(list({1, 0, 2}).commands.size(), 1u);
+    EXPECT_EQ(list({1, 0, 2}).triangles, 4 + more);
+  }
+}
+
 }  // namespace
 }  // namespace veduta

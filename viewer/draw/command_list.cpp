@@ -5,6 +5,15 @@
 #include <utility>
 
 namespace veduta {
+namespace {
+
+uint64_t triangles_of(const ObjectRanges& ranges) {
+  uint64_t sum = 0;
+  for (uint8_t i = 0; i < ranges.count; ++i) sum += ranges.range[i].end - ranges.range[i].begin;
+  return sum;
+}
+
+}  // namespace
 
 CommandLister::CommandLister(const PvsIndex& index, const std::vector<PageSpan>& pages)
     : index_(index),
@@ -71,7 +80,12 @@ void CommandLister::for_entries_inside(const BoxCuller& culler, std::span<const 
 
 void CommandLister::add(uint32_t page, const PvsEntry& entry, CommandList& list) const {
   const Here& here = here_[page];
-  const ObjectRanges found = here.ranges.ranges(entry.object - pages_[page].first_object, entry.index);
+  const uint32_t object = entry.object - pages_[page].first_object;
+  ObjectRanges found = here.ranges.ranges(object, entry.index);
+  // Ranges may overlap; the whole object is no more to draw than two that have as many triangles together.
+  const Object& whole = index_.objects[entry.object];
+  if (found.count == 2 && triangles_of(found) >= whole.triangle_end - whole.triangle_begin)
+    found = here.ranges.ranges(object, completely_visible);
   for (uint8_t i = 0; i < found.count; ++i) {
     const TriangleRange& range = found.range[i];
     const auto first = here.place.first_index + static_cast<uint32_t>(range.order) * here.place.order_stride +

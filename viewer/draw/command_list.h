@@ -22,7 +22,9 @@ struct IndirectCommand {
 };
 static_assert(sizeof(IndirectCommand) == 20);
 
-/// Commands, and what they draw. A triangle in both of an object's ranges counts twice: it is drawn twice.
+/// Commands, and what they draw: of every object what its index says or more. A triangle in both of an
+/// object's ranges counts twice, as it is drawn twice; where that is as much as the whole object, the whole
+/// object is drawn instead.
 struct CommandList {
   std::vector<IndirectCommand> commands;
   uint32_t objects = 0;
