@@ -93,7 +93,6 @@ class HudTest : public testing::Test {
   }
   Image picture() {
     layout();
-    layout();  // ImGui knows how large a panel is after it showed it once
     return draw();
   }
 
@@ -142,6 +141,18 @@ TEST_F(HudTest, NothingIsDrawnWhenAllIsOff) {
   EXPECT_EQ(changed(picture()).pixels, 0u) << "nothing stays of the panel";
 }
 
+TEST_F(HudTest, TheFirstPictureHasItAll) {
+  state_.help = state_.search = true;
+  state_.map = MapShown::inset;
+  hud_->say("something");
+  const Image first = picture();
+  EXPECT_GT(changed(first).bright, 50u);
+  state_.search = false;
+  const Image help = picture();
+  EXPECT_GT(changed(help).bright, 1000u);
+  EXPECT_TRUE(picture() == help);
+}
+
 TEST_F(HudTest, FiguresAreInACompactPanelAtTheUpperLeft) {
   state_.hud = true;
   const Changed panel = changed(picture());
@@ -174,7 +185,7 @@ TEST_F(HudTest, LettersGrowWithThePicture) {
 
 TEST_F(HudTest, ColoursAreThoseOfTheLegendWhetherGlConvertsOrNot) {
   state_.map = MapShown::inset;
-  layout(), layout();
+  layout();
   const Image converting = draw(true);
   EXPECT_TRUE(converting == draw(false));
   for (const LegendEntry& entry : map_legend()) {

@@ -59,6 +59,14 @@ struct Hud::State {
     std::string text;
     double left_s;
   };
+  struct Shown {
+    bool hud = false, help = false, search = false;
+    MapShown map = MapShown::off;
+    CellColour cells = CellColour::off;
+    size_t messages = 0;
+    glm::uvec2 picture{0};
+    bool operator==(const Shown&) const = default;
+  };
 
   ImGuiContext* context = nullptr;
   float letter = 0;
@@ -66,6 +74,7 @@ struct Hud::State {
   bool typing = false;                   ///< is the search open?
   StereoMode stereo = StereoMode::mono;  ///< of the last layout
   std::vector<Message> messages;
+  Shown shown;  ///< in the last layout
   RecentFrames recent;
   SearchField search;
   std::optional<uint32_t> chosen;
@@ -76,6 +85,7 @@ struct Hud::State {
   void use_letters(float height);
   double tick(double now_s, const FrameStats& last, const ViewState& state);
   void age_messages(double elapsed_s);
+  void show(const HudFigures& figures, const HudScale& hud_scale);
   void show_legends(const ViewState& state, const PvsIndex& index, const HudScale& hud_scale);
 };
 
@@ -132,6 +142,25 @@ void Hud::State::show_legends(const ViewState& state, const PvsIndex& index, con
   if (!parts.empty()) legend_panel(parts, hud_scale);
 }
 
+void Hud::State::show(const HudFigures& figures, const HudScale& hud_scale) {
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui::NewFrame();
+  const ViewState& state = figures.state;
+  if (state.hud) figures_panel(figures, hud_scale);
+  show_legends(state, figures.index, hud_scale);
+  if (!messages.empty()) {
+    std::vector<std::string> lines;
+    for (const Message& message : messages) lines.push_back(message.text);
+    messages_panel(lines, hud_scale);
+  }
+  if (state.help && !state.search) help_panel(key_bindings(), hud_scale);
+  if (!state.search)
+    search.hide();
+  else if (const std::optional<uint32_t> object = search.show(figures.index, hud_scale))
+    chosen = object;
+  ImGui::Render();
+}
+
 Hud::Hud() : state_(std::make_unique<State>()) {
   IMGUI_CHECKVERSION();
   state_->context = ImGui::CreateContext();
@@ -162,22 +191,13 @@ void Hud::layout(const ViewState& state, const FrameStats& last, const CityStrea
   io.DisplaySize = {scale.size.x, scale.size.y};
   io.DisplayFramebufferScale = {1, 1};
   io.DeltaTime = static_cast<float>(std::clamp(elapsed_s, 1e-4, 1.0));
-  ImGui_ImplOpenGL3_NewFrame();
-  ImGui::NewFrame();
-  if (state.hud) figures_panel({state, last, stream, index, s.recent}, scale);
-  s.show_legends(state, index, scale);
-  if (!s.messages.empty()) {
-    std::vector<std::string> lines;
-    for (const State::Message& message : s.messages) lines.push_back(message.text);
-    messages_panel(lines, scale);
-  }
-  if (state.help && !state.search) help_panel(key_bindings(), scale);
+  const HudFigures figures{state, last, stream, index, s.recent};
+  // ImGui measures what it shows for the first time, and draws it from the next time on.
+  const State::Shown shown{state.hud,   state.help,        state.search, state.map,
+                           state.cells, s.messages.size(), picture};
+  if (std::exchange(s.shown, shown) != shown) s.show(figures, scale);
+  s.show(figures, scale);
   s.typing = state.search;
-  if (!state.search)
-    s.search.hide();
-  else if (const std::optional<uint32_t> object = s.search.show(index, scale))
-    s.chosen = object;
-  ImGui::Render();
 }
 
 void Hud::draw() {
