@@ -20,7 +20,7 @@ struct PageSpan {
 
 /// How large a page should be. A file's objects follow each other in no order of space, so most of what a
 /// large page holds is not what a row lists. 1024 triangles are about 100 kB.
-inline constexpr uint64_t triangles_per_page = 1024;
+inline constexpr uint64_t triangles_per_page = 512;
 
 /// Cuts the objects of a file into pages of at most this many triangles; an object with more is a page.
 /// Every object is in one page, the pages are in the order of their objects.
