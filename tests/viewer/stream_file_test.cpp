@@ -95,6 +95,7 @@ TEST_F(StreamFile, DamageIsMetWhereTheEyeComesToIt) {
   stream.look(toy::standing_in(5));
   stream.wait();  // that part of the city is whole
   std::string message;
+  testing::internal::CaptureStderr();
   EXPECT_EQ(test::status_of(
                 [&] {
                   stream.look(toy::standing_in(55));
@@ -102,6 +103,7 @@ TEST_F(StreamFile, DamageIsMetWhereTheEyeComesToIt) {
                 },
                 &message),
             ExitStatus::bad_input);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "a library speaks for itself";
   EXPECT_NE(message.find(file_.string() + ": /scene/triangles"), std::string::npos) << message;
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   EXPECT_EQ(test::status_of([&] { stream.look(toy::standing_in(5)); }), ExitStatus::bad_input);
