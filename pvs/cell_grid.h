@@ -27,6 +27,7 @@ class CellGrid {
     uint32_t cell;
   };
   int64_t bin_along(int axis, float x) const;
+  void sort_by_bin();
 
   size_t cell_count_ = 0;
   Box bounds_;

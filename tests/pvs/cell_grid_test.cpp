@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -53,6 +54,14 @@ TEST(CellGrid, AgreesWithAScanOfEqualCells) {
              {10.0f * static_cast<float>(x + 1), 10.0f * static_cast<float>(y + 1),
               0.1f * static_cast<float>(x) + 1}});
   expect_same(cells, 1, 120);
+}
+
+TEST(CellGrid, AgreesWithAScanOfALongRowInNoOrder) {
+  std::vector<Box> cells;
+  for (int x = -1500; x < 1500; ++x)
+    cells.push_back({{static_cast<float>(x), -1500, 0}, {static_cast<float>(x + 1), 1500, 1}});
+  std::shuffle(cells.begin(), cells.end(), std::mt19937(3));
+  expect_same(cells, 4, 1600);
 }
 
 TEST(CellGrid, AgreesWithAScanOfOverlappingCellsOfManySizes) {
