@@ -26,18 +26,4 @@ std::vector<FrameStats> draw_path(CityStream& stream, const std::vector<Pose>& p
                                   const HeadlessOptions& options,
                                   const std::function<void(const FrameStats&, Image&&)>& show);
 
-/// A frame that is another without the PVS.
-struct FrameDifference {
-  uint32_t frame = 0;
-  uint64_t pixels = 0;  ///< that differ
-  Image with_pvs, without_pvs;
-};
-
-/// The user's proof that nothing is falsely invisible: draws every pose with the PVS as `options` say and
-/// again without it, and hands out what differs. \return how many frames did.
-/// \throw Error(usage) when there is no usable GL, or `memory` is too small for the whole city.
-uint32_t compare_with_all(CityStream& stream, const std::vector<Pose>& path, const HeadlessOptions& options,
-                          const std::function<void(const FrameStats&)>& drawn,
-                          const std::function<void(const FrameDifference&)>& differs);
-
 }  // namespace veduta
