@@ -2,8 +2,8 @@
 // windows, courses of bricks and grain of ground, haze. Colours are linear; the frame buffer stores sRGB.
 //
 // Software GL takes every branch of a fragment shader, but leaves loops early: what depends on the material
-// is chosen at the vertices, and the grain is a loop. No powers, but products: it took 3 times as long
-// without all that.
+// is chosen at the vertices, and the grain is a loop. No powers, but products. A frame in Den Haag takes 0.8
+// of the time that it took without all that.
 #include "viewer/draw/shaders.h"
 
 namespace veduta {
@@ -62,7 +62,7 @@ std::string city_fragment_source() {
   return std::string(sky_light) + R"(
 in vec3 offset_m;
 in float height_m;
-flat in vec2 eye_xy_m;
+flat in vec3 eye_at_m;
 flat in vec3 plain, pattern;
 flat in vec2 special;
 uniform float haze_m;
@@ -91,15 +91,16 @@ float stripe(float at, float low, float high) {
 
 // Without windows and courses, a wall gives the eyes nothing to converge on.
 vec3 albedo(vec3 normal) {
-  vec2 place_m = offset_m.xy + eye_xy_m;
+  vec3 at_m = offset_m + eye_at_m;
   // Rounded: at the far end of a city, the smallest change of the direction moves the windows.
   vec2 across = round(32.0 * normal.xy / max(abs(normal.x) + abs(normal.y), 1e-6));
   vec2 along = normalize(vec2(-across.y, across.x) + vec2(0.0, 1e-6));
-  float window = stripe(dot(place_m, along) / 2.4, 0.30, 0.70) * stripe(height_m / 3.0, 0.30, 0.78);
+  float window = stripe(dot(at_m.xy, along) / 2.4, 0.30, 0.70) * stripe(height_m / 3.0, 0.30, 0.78);
   float course = stripe(height_m / 0.25, 0.0, 0.14);
   vec3 base = mix(plain, vec3(0.24, 0.23, 0.22), special.x * step(0.97, normal.z));
   base *= 1.0 - 0.11 * pattern.y * course * step(normal.z, 0.97);
   base = mix(base, 0.3 * base + vec3(0.03, 0.04, 0.06), 0.7 * pattern.x * window * step(abs(normal.z), 0.2));
+  vec2 place_m = at_m.xy + 0.7 * at_m.z;  // so that no face has stripes of it
   float blur_m = length(fwidth(place_m)), grain = 0.0;
   for (float size_m = 9.0; size_m > 0.2 && size_m * pattern.z > 1.3 * blur_m; size_m /= 6.0)
     grain += 0.3 * (noise(place_m / size_m) - 0.5) * (1.0 - squared(1.3 * blur_m / (size_m * pattern.z)));

@@ -21,7 +21,8 @@ namespace veduta {
 class Painter {
  public:
   /// The index has to outlive it. \param buffer_bytes for pages; less is taken where all of the city needs
-  /// less. \throw Error(usage) when the driver lacks a feature or the memory.
+  /// less. Pages of unequal size that come and go leave holes, so it should be more than the pages to be
+  /// here. \throw Error(usage) when the driver lacks a feature or the memory.
   Painter(const PvsIndex& index, uint64_t buffer_bytes, int samples, bool allow_one_pass = true);
   ~Painter();
 

@@ -34,14 +34,14 @@ uniform vec3 eye_m[2];
 uniform mat4 clip_from_offset[2];
 out vec3 offset_m;               // from the eye: keeps the precision of what is near
 out float height_m;
-flat out vec2 eye_xy_m;
+flat out vec3 eye_at_m;
 flat out vec3 plain, pattern;
 flat out vec2 special;
 void main() {
   int eye = first_eye + gl_InstanceID;
   offset_m = position_m - eye_m[eye];
   height_m = height_cm * 0.01;
-  eye_xy_m = eye_m[eye].xy;
+  eye_at_m = eye_m[eye];
   look_up(material_tint.x, material_tint.y, plain, pattern, special);
   gl_Position = clip_from_offset[eye] * vec4(offset_m, 1.0);
   to_layer(eye);
