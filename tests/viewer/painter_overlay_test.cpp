@@ -35,6 +35,10 @@ TEST_F(PainterTest, TheMapShowsBoxesOfWhatIsNotHere) {
   places_[Street::tower] = *on->add(page(Street::tower));
   const Image back = map(*on, here, colours_);
   EXPECT_EQ(on_map(back, 46, -6), on_map(back, 46, 10)) << "it is here again, and not in the list";
+  on->remove(Street::ground);
+  const Image floating = map(*on, list({Street::house, Street::wall, Street::shed}), colours_);
+  EXPECT_EQ(on_map(floating, 11, 8), on_map(back, 11, 8)) << "stands on the box of the ground";
+  EXPECT_GT(on_map(floating, -20, 0)[0], 160) << "as bright as ground";
 }
 
 TEST_F(PainterTest, BoxesLieOverTheMap) {

@@ -84,14 +84,14 @@ std::vector<ColouredPoint> MapPainter::absent(std::span<const MapColour> colours
   std::vector<ColouredPoint> corners;
   for (size_t o = 0; o < colours.size(); ++o) {
     const Box& box = index_.bounds[o];
-    // The box of ground would lie over all that stands on it.
-    if (object_here[o] || box.empty() || colours[o] == MapColour::hidden || colours[o] == MapColour::ground)
-      continue;
+    if (object_here[o] || box.empty() || colours[o] == MapColour::hidden) continue;
+    // The roof of ground's box would lie over all that stands on it.
+    const float z = colours[o] == MapColour::ground ? box.lower.z : box.upper.z;
     const glm::vec4 colour = colour_of(colours[o]);
     const glm::vec3 &a = box.lower, &b = box.upper;
     for (const glm::vec2& xy :
          {glm::vec2(a.x, a.y), {b.x, a.y}, {b.x, b.y}, {a.x, a.y}, {b.x, b.y}, {a.x, b.y}})
-      corners.push_back({glm::vec3(xy, b.z), colour});
+      corners.push_back({glm::vec3(xy, z), colour});
   }
   return corners;
 }

@@ -35,7 +35,7 @@ class MapPainter {
   /// Makes ready for drawing the city's commands: its program, the view, the depth test.
   void use(const OverlayPainter::View& view) const;
   void set_first_eye(int eye) const;
-  /// The roofs of the boxes of objects that are not here, as triangles.
+  /// The roofs of the boxes of objects that are not here (of ground: the floors), as triangles.
   std::vector<ColouredPoint> absent(std::span<const MapColour> colours,
                                     const std::vector<bool>& object_here) const;
 
