@@ -138,6 +138,11 @@ struct Gate {
     open = true;
     changed.notify_all();
   }
+  void close() {
+    const std::lock_guard hold(lock);
+    open = false;
+    begun = 0;
+  }
 };
 
 class GatedSource : public MemorySource {
@@ -170,6 +175,28 @@ TEST(CityStream, AReadThatTakesForEverHoldsNobodyUp) {
   stream.wait();
   EXPECT_TRUE(stream.row(30));
   EXPECT_EQ(stream.status().pages_missing, 0u);
+}
+
+TEST(CityStream, WhatWasRefusedIsNotTakenDownForWhatComesAtThatMoment) {
+  Gate gate;
+  gate.let_go();
+  CityStream stream(std::make_unique<GatedSource>(toy::long_street(60), gate), 9 * page_bytes);
+  Viewer viewer(stream);
+  for (uint32_t cell : {10u, 13u, 16u}) {  // until the budget is full
+    stream.look(toy::standing_in(cell));
+    stream.wait();
+    viewer.take();
+  }
+  gate.close();
+  stream.look(toy::standing_in(40));
+  gate.wait_until_begun();
+  viewer.take();
+  for (uint32_t page : viewer.here) stream.refuse(page);
+  viewer.here.clear();
+  gate.let_go();
+  stream.wait();
+  viewer.take();  // checks that what goes was here
+  for (uint32_t page = 38; page <= 42; ++page) EXPECT_TRUE(viewer.here.count(page)) << page;
 }
 
 TEST(CityStream, EndsInTheMiddleOfARead) {

@@ -19,7 +19,10 @@ struct PageSpan {
 };
 
 /// How large a page should be. A file's objects follow each other in no order of space, so most of what a
-/// large page holds is not what a row lists. 1024 triangles are about 100 kB.
+/// large page holds is not what a row lists: in Linz, rows of 8,300 triangles lie in pages of 15,000, 26,000,
+/// 46,000, 77,000 or 207,000 when those have 256, 512, 1024, 2048 or 16,384. Reading in the order of the file
+/// takes 2 to 3 ms/MB whichever it is. 512 triangles are about 40 kB. Commands are one or two for each
+/// object, however large the pages are.
 inline constexpr uint64_t triangles_per_page = 512;
 
 /// Cuts the objects of a file into pages of at most this many triangles; an object with more is a page.
