@@ -24,8 +24,9 @@ namespace {
 
 constexpr size_t default_frames = 8, compared_frames = 100;
 
+// One line, whatever words of the command line or of a file it quotes.
 void warn(const std::string& line) {
-  fmt::print(stderr, "veduta-view: {}\n", line);
+  fmt::print(stderr, "veduta-view: {}\n", printable(line, 2000));
 }
 
 void make_folder(const std::string& folder) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <string>
@@ -142,6 +143,10 @@ void declare(CLI::App& app, ViewCommand& command) {
 }
 
 void check(ViewCommand& command) {
+  const Optics& optics = command.view.begin.optics;
+  if (std::isnan(optics.iod_m + optics.screen_distance_m +
+                 optics.vertical_fov_deg))  // CLI::Range lets it pass
+    throw Error(ExitStatus::usage, "--iod, --screen-distance, --fov: \"nan\" is not a number");
   command.view.picture = parse_size(command.size);
   GpuChoice::parse(command.view.gpu);
   command.view.begin.stereo = *parse_stereo_mode(command.stereo);

@@ -196,7 +196,16 @@ TEST_F(BadViewInput, WordsThatItDoesNotKnow) {
   expect_usage_refused(headless + "--pvs perhaps", "perhaps");
   expect_usage_refused(headless + "--size 12by9", "12by9");
   expect_usage_refused(headless + "--size 99999x99999", "99999");
+  for (const char* option : {"--iod", "--screen-distance", "--fov"})
+    expect_usage_refused(headless + option + " nan", option);
   expect_usage_refused(headless + "--fov 180", "--fov");
+  expect_usage_refused(headless + "--stereo quad-buffer", "quad-buffer");
+  expect_usage_refused(headless + "--memory 1", "--memory");
+  expect_usage_refused(headless + "--find castle", "castle");
+  expect_usage_refused(headless + "--find '\nca\x1b[31mstle\n'", "stle");
+  expect_usage_refused(headless + "--stereo 'a\nb'", "a?b");
+  expect_usage_refused("good.h5 --compare", "--out");
+  expect_usage_refused("good.h5 --play", "--path");
   expect_usage_refused(headless + "--telescope", "telescope");
   expect_usage_refused(headless + "other.h5", "other.h5");
   expect_usage_refused("good.h5 --headless", "--out");
