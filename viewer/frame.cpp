@@ -37,7 +37,8 @@ struct FrameDrawer::Parts {
     const Pose& from = state.frozen ? *state.frozen : state.pose;
     const bool apart = state.stereo != StereoMode::mono && state.optics.iod_m / 2 > margin_m;
     Gaze gaze{from.position_m, velocity_m_s, apart ? state.optics.iod_m / 2 * axes(from).right : glm::vec3(0),
-              state.pvs == PvsUse::off || state.missing || everything};
+              state.pvs == PvsUse::off || state.missing || everything ||
+                  (options.wait && state.map != MapShown::off)};
     const auto see = [&] {
       if (options.wait)
         city.fetch(gaze);
