@@ -15,7 +15,7 @@ namespace veduta {
 enum class Order : uint8_t { x_first = 0, x_last = 1, y_first = 2, y_last = 3, z_last = 4 };
 inline constexpr size_t order_count = 5;
 
-/// A run of triangles in one order: elements [begin, end) of IndexRanges::order(o).
+/// A run of triangles in one order: elements [begin, end) of that order.
 struct TriangleRange {
   Order order = Order::z_last;
   uint64_t begin = 0, end = 0;
@@ -28,7 +28,8 @@ struct ObjectRanges {
 };
 
 /// Triangle numbers of a whole city in each of the five orders, [T] each. Object i's triangles stay in
-/// [triangle_begin, triangle_end). Equal keys keep the order of the city.
+/// [triangle_begin, triangle_end) in each of them, those that are visible first: keys rise in *_first and
+/// fall in *_last. Equal keys keep the order of the city.
 using TriangleOrders = std::array<std::vector<uint32_t>, order_count>;
 TriangleOrders triangle_orders(const City& city);
 
@@ -48,22 +49,6 @@ class SliceRanges {
   std::vector<uint64_t> first_;           ///< [N+1] of an object in counts_
   std::vector<uint64_t> triangle_begin_;  ///< [N+1]
   std::vector<SliceCounts> slices_;       ///< [N]
-};
-
-/// The five orders of a whole city. Object i's triangles stay in [triangle_begin, triangle_end) in each of
-/// them. Keys are sorted so that visible triangles come first: ascending for *_first, descending for *_last.
-class IndexRanges {
- public:
-  explicit IndexRanges(const City& city);
-  /// Triangle numbers in this order, [T].
-  const std::vector<uint32_t>& order(Order o) const { return orders_[static_cast<size_t>(o)]; }
-  /// The ranges that draw exactly the triangles for which draws(index, slices) holds. O(log triangles of the
-  /// object).
-  ObjectRanges ranges(uint32_t object, VisibilityIndex index) const;
-
- private:
-  const City& city_;
-  std::array<std::vector<uint32_t>, order_count> orders_;
 };
 
 }  // namespace veduta

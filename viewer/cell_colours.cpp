@@ -51,17 +51,22 @@ glm::vec3 distinct_colour(uint32_t n) {
 CellScale cell_scale(const PvsIndex& index, CellColour by) {
   if (by == CellColour::worker) return {index.cell_worker.empty() ? CellColour::off : by, 0, 0, ""};
   if (by == CellColour::off || index.cells.empty()) return {};
-  std::vector<float> values;
-  for (uint32_t cell = 0; cell < index.cells.size(); ++cell) values.push_back(value_of(index, by, cell));
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    return values[static_cast<size_t>(share * static_cast<double>(values.size() - 1))];
+  std::vector<float> values(index.cells.size());
+  for (uint32_t cell = 0; cell < values.size(); ++cell) values[cell] = value_of(index, by, cell);
+  const auto at = [&](double share) {  // asked for in each frame: not sorted
+    const auto found =
+        values.begin() + static_cast<ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), found, values.end());
+    return *found;
   };
   return {by, at(0.02), at(0.98), by == CellColour::bake_time ? "ms" : "objects"};
 }
 
 glm::vec3 cell_colour(const PvsIndex& index, const CellScale& scale, uint32_t cell) {
-  if (scale.by == CellColour::worker) return distinct_colour(index.cell_worker[cell]);
+  if (scale.by == CellColour::worker) {
+    const uint32_t worker = index.cell_worker[cell];
+    return worker == no_worker ? glm::vec3(0.2f) : distinct_colour(worker);
+  }
   const float range = std::max(scale.high - scale.low, 1e-6f);
   return scale_colour((value_of(index, scale.by, cell) - scale.low) / range);
 }

@@ -119,6 +119,11 @@ void declare_drawing(CLI::App& app, ViewCommand& command) {
       ->check(CLI::Range(uint64_t{16}, uint64_t{1} << 20))
       ->type_name("MB")
       ->capture_default_str();
+  app.add_option("--samples", command.view.frame.samples,
+                 "Of a pixel: 1 has jagged edges, and is drawn three times as fast as 4 without a GPU")
+      ->check(CLI::Range(1, 16))
+      ->type_name("N")
+      ->capture_default_str();
   app.add_option("--gpu", command.view.gpu, "auto, software, or the number of an EGL device (--headless)")
       ->type_name("GPU")
       ->capture_default_str();

@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "pvs/index_ranges.h"
 #include "viewer/draw/command_list.h"
 #include "viewer/stream/page.h"
 
@@ -39,17 +38,7 @@ inline City piece_of(const City& city, uint32_t first, uint32_t last) {
 
 /// Objects [first, last) as a page.
 inline Page page_of(const City& city, uint32_t first, uint32_t last, uint32_t number) {
-  const City piece = piece_of(city, first, last);
-  const Mesh mesh = make_mesh(piece.scene, first);
-  const IndexRanges ranges(piece);
-  Page page;
-  page.number = number;
-  page.vertices = mesh.vertices;
-  page.triangles = mesh.corners.size();
-  for (size_t o = 0; o < order_count; ++o)
-    for (uint32_t triangle : ranges.order(static_cast<Order>(o)))
-      for (int k = 0; k < 3; ++k) page.elements.push_back(mesh.corners[triangle][k]);
-  return page;
+  return make_page(piece_of(city, first, last), first, number);
 }
 
 /// The command that draws a page whole.

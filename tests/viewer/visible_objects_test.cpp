@@ -39,9 +39,9 @@ class VisibleObjectsTest : public testing::Test {
 using Entries = std::vector<PvsEntry>;
 
 TEST_F(VisibleObjectsTest, ReadsTheMarginOfTheBake) {
-  EXPECT_DOUBLE_EQ(baked_eye_margin_m("[stereo]\neye_margin_m = 0.0325\n"), 0.0325);
+  EXPECT_DOUBLE_EQ(baked_eye_margin_m("[stereo]\neye_margin = 0.0325\n"), 0.0325);
   EXPECT_EQ(baked_eye_margin_m(""), 0);
-  EXPECT_EQ(baked_eye_margin_m("[stereo]\neye_margin_m = \"much\"\n"), 0);
+  EXPECT_EQ(baked_eye_margin_m("[stereo]\neye_margin = \"much\"\n"), 0);
   EXPECT_EQ(baked_eye_margin_m("not = = toml"), 0);
 }
 

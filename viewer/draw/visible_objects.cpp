@@ -69,7 +69,7 @@ void take_whole_buildings(std::vector<PvsEntry>& entries) {
 
 double baked_eye_margin_m(const std::string& config) {
   try {
-    return std::max(0.0, toml::parse(config)["stereo"]["eye_margin_m"].value_or(0.0));
+    return std::max(0.0, toml::parse(config)["stereo"]["eye_margin"].value_or(0.0));
   } catch (const toml::parse_error&) {
     return 0;  // a file of somebody else's making: both eyes are then looked up, which always holds
   }

@@ -11,7 +11,7 @@
 
 namespace veduta {
 
-/// How far an eye may be outside the cell of its midpoint, m: what the bake was told (`stereo.eye_margin_m`
+/// How far an eye may be outside the cell of its midpoint, m: what the bake was told (`stereo.eye_margin`
 /// of the configuration that the file carries). 0 when the file does not say.
 double baked_eye_margin_m(const std::string& config);
 
