@@ -4,6 +4,7 @@
 
 #include "pvs/digest.h"
 #include "pvs/hdf5_input.h"
+#include "pvs/hdf5_pack.h"
 
 namespace veduta::hdf5 {
 
@@ -14,7 +15,6 @@ namespace {
 constexpr uint64_t deflate_ratio_limit = 1100;
 constexpr uint64_t text_bytes_limit = 1u << 20;
 constexpr uint64_t chunk_bytes_limit = 256u << 20;
-constexpr uint64_t checksum_bytes = 4;
 
 }  // namespace
 
@@ -54,6 +54,7 @@ ColumnReader::ColumnReader(const Input& input, const Column& column) : input_(in
       (rows_ > 0 && columns_ > 0 && rows_ > most / (element * columns_)))
     input.fail(column.path,
                fmt::format("damaged: claims {} x {} values, more than the file can hold", rows_, columns_));
+  element_bytes_ = element;
   row_bytes_ = element * columns_;
   check_storage();
 }
@@ -79,17 +80,22 @@ void ColumnReader::check_storage() {
   if (!same) input_.fail(column_.path, "not packed by shuffle, deflate and fletcher32");
 }
 
-void ColumnReader::check_chunk(uint64_t first) const {
-  // HDF5 1.10 reads beyond its buffers when the index gives a chunk fewer bytes than a checksum has, and
-  // fills in for chunks that the index does not know.
+void ColumnReader::read_chunk(uint64_t first, std::vector<std::byte>& packed,
+                              std::vector<std::byte>& chunk) const {
+  // HDF5 fills in for chunks that the index does not know.
   const hsize_t offset[2] = {first, 0};
   unsigned skipped = 0;
   haddr_t address = HADDR_UNDEF;
   hsize_t bytes = 0;
   if (H5Dget_chunk_info_by_coord(dataset_.get(), offset, &skipped, &address, &bytes) < 0 ||
-      address == HADDR_UNDEF || skipped != 0 || bytes <= checksum_bytes || bytes > input_.file_bytes() ||
+      address == HADDR_UNDEF || skipped != 0 || bytes > input_.file_bytes() ||
       address > input_.file_bytes() - bytes)
     input_.fail(column_.path, "damaged: its chunk index does not hold; get the file again, or bake again");
+  packed.resize(bytes);
+  uint32_t filters = 0;
+  if (H5Dread_chunk(dataset_.get(), H5P_DEFAULT, offset, &filters, packed.data()) < 0 ||
+      !unpack_chunk(packed, element_bytes_, chunk))
+    input_.fail(column_.path, "damaged: a checksum does not hold; get the file again, or bake again");
 }
 
 uint64_t ColumnReader::block_rows() const {
@@ -98,14 +104,12 @@ uint64_t ColumnReader::block_rows() const {
 }
 
 void ColumnReader::read_block(uint64_t first, uint64_t rows, std::byte* out) const {
-  const hsize_t start[2] = {first, 0};
-  const hsize_t count[2] = {rows, columns_};
-  for (uint64_t chunk = first; chunk < first + rows; chunk += chunk_rows_) check_chunk(chunk);
-  const Handle space(H5Dget_space(dataset_.get()), H5Sclose);
-  const Handle memory(H5Screate_simple(rank(), count, nullptr), H5Sclose);
-  if (H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start, nullptr, count, nullptr) < 0 ||
-      H5Dread(dataset_.get(), type_.get(), memory.get(), space.get(), H5P_DEFAULT, out) < 0)
-    input_.fail(column_.path, "damaged: a checksum does not hold; get the file again, or bake again");
+  std::vector<std::byte> packed, chunk(chunk_rows_ * row_bytes_);
+  for (uint64_t at = first; at < first + rows; at += chunk_rows_) {
+    read_chunk(at, packed, chunk);
+    const uint64_t here = std::min(chunk_rows_, first + rows - at);
+    out = std::copy_n(chunk.begin(), here * row_bytes_, out);
+  }
 }
 
 std::string ColumnReader::read(

@@ -93,13 +93,14 @@ class ColumnReader {
  private:
   int rank() const { return column_.columns == 1 ? 1 : 2; }
   void check_storage();
-  void check_chunk(uint64_t first) const;
+  /// The chunk that begins with a row, whole. `packed` is room for what is stored of it.
+  void read_chunk(uint64_t first, std::vector<std::byte>& packed, std::vector<std::byte>& chunk) const;
 
   const Input& input_;
   const Column& column_;
   Handle dataset_, type_;
   uint64_t rows_ = 0, columns_ = 1, stored_bytes_ = 0, chunk_rows_ = 1;
-  size_t row_bytes_ = 0;
+  size_t element_bytes_ = 1, row_bytes_ = 0;
 };
 
 }  // namespace veduta::hdf5

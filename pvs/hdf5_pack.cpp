@@ -61,4 +61,28 @@ std::vector<std::byte> pack_chunk(const std::vector<std::byte>& chunk, size_t el
   return packed;
 }
 
+bool unpack_chunk(const std::vector<std::byte>& packed, size_t element_bytes, std::vector<std::byte>& chunk) {
+  if (packed.size() <= sizeof(uint32_t)) return false;
+  const size_t bytes = packed.size() - sizeof(uint32_t);
+  uint32_t sum = 0;
+  for (unsigned i = 0; i < sizeof sum; ++i) sum |= std::to_integer<uint32_t>(packed[bytes + i]) << (8 * i);
+  if (fletcher32(packed.data(), bytes) != sum) return false;
+  std::vector<std::byte> shuffled(chunk.size());
+  uLongf unpacked = shuffled.size();
+  if (::uncompress(reinterpret_cast<Bytef*>(shuffled.data()), &unpacked,
+                   reinterpret_cast<const Bytef*>(packed.data()), bytes) != Z_OK ||
+      unpacked != shuffled.size())
+    return false;
+  if (element_bytes == 1) {
+    chunk.swap(shuffled);
+    return true;
+  }
+  const size_t count = chunk.size() / element_bytes;
+  for (size_t b = 0; b < element_bytes; ++b) {
+    const std::byte* const from = shuffled.data() + b * count;
+    for (size_t i = 0; i < count; ++i) chunk[i * element_bytes + b] = from[i];
+  }
+  return true;
+}
+
 }  // namespace veduta::hdf5

@@ -12,4 +12,9 @@ inline constexpr int deflate_level = 4;
 /// in this order. \param element_bytes size of the dataset's type. \throw std::bad_alloc.
 std::vector<std::byte> pack_chunk(const std::vector<std::byte>& chunk, size_t element_bytes, int level);
 
+/// The other way, into a chunk of known size. HDF5 1.10 itself reads beyond its buffers where a damaged file
+/// gives it a chunk that unpacks to fewer bytes.
+/// \return false: the checksum does not hold, or it does not unpack to just as many bytes.
+bool unpack_chunk(const std::vector<std::byte>& packed, size_t element_bytes, std::vector<std::byte>& chunk);
+
 }  // namespace veduta::hdf5

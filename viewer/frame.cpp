@@ -1,5 +1,7 @@
 #include "viewer/frame.h"
 
+#include <epoxy/gl.h>
+
 #include <chrono>
 
 #include "viewer/city_pages.h"
@@ -132,6 +134,7 @@ FrameStats FrameDrawer::draw(const ViewState& asked, const glm::vec3& velocity_m
     stats.draws += static_cast<uint32_t>(times * list.commands.size());
     stats.waiting |= list.absent > 0;
   }
+  if (p.options.wait) glFinish();
   stats.ms = ms_since(start);
   return p.last = stats;
 }

@@ -78,13 +78,13 @@ void show_witness(const ViewCommand& command, std::unique_ptr<const CitySource> 
 }
 
 void draw_pictures(const ViewCommand& command, CityStream& stream, const std::vector<Pose>& path) {
-  make_folder(command.out);
   bool said = false;
   const std::vector<FrameStats> stats =
       draw_path(stream, path, command.view, [&](const FrameStats& frame, Image&& image) {
         if (frame.all_drawn && command.view.begin.pvs != PvsUse::off && !std::exchange(said, true))
           warn(fmt::format("frame {}: the eye is outside every view-cell; everything is drawn there",
                            frame.frame));
+        if (frame.frame == 0) make_folder(command.out);
         write_png(std::filesystem::path(command.out) / fmt::format("frame_{:04}.png", frame.frame), image);
       });
   if (!command.stats.empty()) write_frame_stats(command.stats, stats);

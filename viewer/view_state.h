@@ -51,7 +51,8 @@ struct FrameStats {
   uint64_t triangles = 0;  ///< drawn, over all eyes
   uint32_t draws = 0;      ///< commands, over all eyes
   double cull_ms = 0;      ///< look-up and culling
-  double ms = 0;           ///< all of the frame: look-up, culling, uploads and drawing; not reading back
+  double ms = 0;  ///< look-up, culling, uploads, drawing; of a picture until it is done, not reading back
+  double interval_ms = 0;  ///< since the frame before was shown; 0 of pictures
 };
 
 }  // namespace veduta

@@ -50,5 +50,32 @@ TEST(Hdf5Pack, GivesTheBytesOfTheLibrary) {
       }
 }
 
+TEST(Hdf5Pack, UnpacksWhatItPacked) {
+  std::mt19937 random(3);
+  for (const size_t element : {1, 2, 4, 8, 40}) {
+    std::vector<std::byte> chunk(element * 777);
+    for (std::byte& b : chunk) b = static_cast<std::byte>(random() % 7);
+    std::vector<std::byte> back(chunk.size());
+    EXPECT_TRUE(unpack_chunk(pack_chunk(chunk, element, 4), element, back));
+    EXPECT_EQ(back, chunk) << element;
+  }
+}
+
+TEST(Hdf5Pack, RefusesWhatIsDamagedOrOfAnotherSize) {
+  std::vector<std::byte> chunk(4000, std::byte{5}), back(chunk.size());
+  chunk[77] = std::byte{9};
+  const std::vector<std::byte> packed = pack_chunk(chunk, 4, 4);
+  for (size_t i = 0; i < packed.size(); ++i) {
+    std::vector<std::byte> bad = packed;
+    bad[i] ^= std::byte{0x10};
+    EXPECT_FALSE(unpack_chunk(bad, 4, back)) << i;
+  }
+  std::vector<std::byte> shorter(chunk.size() - 4), longer(chunk.size() + 4);
+  EXPECT_FALSE(unpack_chunk(packed, 4, shorter)) << "a chunk of another dataset";
+  EXPECT_FALSE(unpack_chunk(packed, 4, longer));
+  EXPECT_FALSE(unpack_chunk({}, 4, back));
+  EXPECT_FALSE(unpack_chunk(std::vector<std::byte>(4), 4, back));
+}
+
 }  // namespace
 }  // namespace veduta::hdf5

@@ -12,13 +12,14 @@ TEST(FrameStats, AreALineEach) {
   FrameStats first, second;
   first.pose = {{1.5f, -2, 3}, 90, -10};
   first.cell = 7, first.objects = 12, first.triangles = 5'000'000'000, first.draws = 3;
-  first.ms = 16.25, first.cull_ms = 0.125, first.waiting = true;
+  first.ms = 16.25, first.cull_ms = 0.125, first.interval_ms = 33.5, first.waiting = true;
   second.frame = 1, second.all_drawn = true;
   write_frame_stats(directory / "stats.csv", {first, second});
-  EXPECT_EQ(test::read_bytes(directory / "stats.csv"),
-            "frame,cell,objects,triangles,draws,ms,cull_ms,all_drawn,waiting,x,y,z,yaw_deg,pitch_deg\n"
-            "0,7,12,5000000000,3,16.250,0.125,0,1,1.5,-2,3,90,-10\n"
-            "1,-1,0,0,0,0.000,0.000,1,0,0,0,0,0,0\n");
+  EXPECT_EQ(
+      test::read_bytes(directory / "stats.csv"),
+      "frame,cell,objects,triangles,draws,ms,cull_ms,interval_ms,all_drawn,waiting,x,y,z,yaw_deg,pitch_deg\n"
+      "0,7,12,5000000000,3,16.250,0.125,33.500,0,1,1.5,-2,3,90,-10\n"
+      "1,-1,0,0,0,0.000,0.000,0.000,1,0,0,0,0,0,0\n");
 }
 
 TEST(FrameStats, LeaveNothingWhereTheyCannotBeWritten) {

@@ -104,7 +104,9 @@ TEST_F(ViewCliTest, DrawsPicturesAndStatistics) {
   std::ifstream stats(at("stats.csv"));
   std::string line;
   std::getline(stats, line);
-  EXPECT_EQ(line, "frame,cell,objects,triangles,draws,ms,cull_ms,all_drawn,waiting,x,y,z,yaw_deg,pitch_deg");
+  EXPECT_EQ(
+      line,
+      "frame,cell,objects,triangles,draws,ms,cull_ms,interval_ms,all_drawn,waiting,x,y,z,yaw_deg,pitch_deg");
   std::getline(stats, line);
   EXPECT_EQ(line.substr(0, 6), "0,0,4,") << line;
   std::getline(stats, line);

@@ -1,7 +1,10 @@
 // veduta-view in a window, as a user has it: on a display without a screen (Xvfb), keys pressed by another
 // program (xdotool). What is shown is compared with the pictures of --headless, pixel by pixel.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <png.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <array>
 #include <memory>
@@ -26,18 +29,36 @@ constexpr double patience_s = 60;
 /// A display of its own for each test: what it starts is shown there, drawn by the CPU as --gpu software is.
 class Display {
  public:
-  explicit Display(const std::filesystem::path& folder)
-      : process_("Xvfb -displayfd 1 -screen 0 1280x1024x24 -nolisten tcp 2>/dev/null", {},
-                 folder / "display") {
-    within(patience_s, [&] { return process_.ended() || process_.output().ends_with('\n'); });
-    const std::string number = process_.output().substr(0, process_.output().find('\n'));
-    ::setenv("DISPLAY", (":" + number).c_str(), 1);
+  explicit Display(const std::filesystem::path& folder) {
     ::setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+    // Two that begin at once, beside what a killed one left, may take the same number.
+    const int lock =
+        ::open((testing::TempDir() + "veduta_display.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    ::flock(lock, LOCK_EX);
+    process_ = std::make_unique<Process>("Xvfb -displayfd 1 -screen 0 1280x1024x24 -nolisten tcp 2>/dev/null",
+                                         test::Environment{}, folder / "display");
+    within(patience_s, [&] { return process_->ended() || process_->output().ends_with('\n'); });
+    const std::string number = process_->output().substr(0, process_->output().find('\n'));
+    ::setenv("DISPLAY", (":" + number).c_str(), 1);
+    works_ = within(patience_s, [&] {
+      return process_->ended() || std::system("xdotool getdisplaygeometry >/dev/null 2>&1") == 0;
+    });
+    works_ = works_ && !process_->ended();
+    ::close(lock);
   }
-  bool works() const { return !process_.ended(); }
+  ~Display() { end(); }
+  bool works() const { return works_; }
 
  private:
-  Process process_;
+  /// It removes its lock and socket.
+  void end() {
+    if (!process_) return;
+    if (!process_->ended()) ::kill(process_->pid(), SIGTERM);
+    process_->wait();
+  }
+
+  std::unique_ptr<Process> process_;
+  bool works_ = false;
 };
 
 Image read_png(const std::filesystem::path& file) {
@@ -235,7 +256,7 @@ TEST_F(Window, RecordsAWalkAndPlaysItBack) {
   EXPECT_NEAR(path.back().position_m.z, 1.7f, 0.3f) << "it walks";
   const auto rows = stats();
   ASSERT_GT(rows.size(), 5u);
-  EXPECT_NEAR(rows.back()[9], path.back().position_m.x, 0.01) << "the last line tells where it ended";
+  EXPECT_NEAR(rows.back()[10], path.back().position_m.x, 0.01) << "the last line tells where it ended";
 
   // Played, a pose a frame, it is over by itself.
   write_path(folder_ / "walk.csv", {path.begin(), path.begin() + 20});
@@ -243,7 +264,7 @@ TEST_F(Window, RecordsAWalkAndPlaysItBack) {
   std::filesystem::rename(folder_ / "played.csv", folder_ / "stats.csv");
   const auto played = stats();
   ASSERT_EQ(played.size(), 20u);
-  for (size_t i = 0; i < played.size(); ++i) EXPECT_NEAR(played[i][9], path[i].position_m.x, 1e-4) << i;
+  for (size_t i = 0; i < played.size(); ++i) EXPECT_NEAR(played[i][10], path[i].position_m.x, 1e-4) << i;
 }
 
 TEST_F(Window, FillsTheScreenAndComesBack) {

@@ -183,7 +183,7 @@ void Session::draw(double elapsed_s) {
 
   ImGui_ImplGlfw_NewFrame();
   last_ = drawer_.draw(controls_.state(), velocity, {0, window_.size(), window_.screen_position()});
-  last_.frame = frames_++;
+  last_.frame = frames_++, last_.interval_ms = 1000 * elapsed_s;
   if (!options_.stats.empty()) stats_.push_back(last_);
   if (std::exchange(screenshot_, false)) save_screenshot();
   glfwSwapBuffers(window_.handle());
