@@ -4,8 +4,8 @@
 
 #include <map>
 
-#include "pvs/hdf5_input.h"
 #include "tests/merge/run_directory.h"
+#include "tests/pvs/stored_columns.h"
 
 namespace veduta {
 namespace {
@@ -51,19 +51,6 @@ TEST(Merge, AgainGivesTheSameFile) {
   EXPECT_EQ(test::read_bytes(run.paths.result()), bytes);
 }
 
-/// Of every dataset but those that say who baked: its digest and how many bytes it takes.
-std::map<std::string, std::pair<std::string, uint64_t>> stored(const std::filesystem::path& file) {
-  const hdf5::Input input(file);
-  std::map<std::string, std::pair<std::string, uint64_t>> found;
-  for (const Column* column : column::all) {
-    if (column == &column::cell_worker || column == &column::worker_name || !input.has(column->path))
-      continue;
-    const hdf5::ColumnReader reader(input, *column);
-    found[column->path] = {reader.read([](const std::byte*, uint64_t, size_t) {}), reader.stored_bytes()};
-  }
-  return found;
-}
-
 /// R8: how the work was shared out, in which order answers came, what was answered twice and where runs were
 /// killed leave no trace in the file but in the names of those who baked.
 TEST(Merge, WhatIsStoredDoesNotDependOnTheShards) {
@@ -90,7 +77,7 @@ TEST(Merge, WhatIsStoredDoesNotDependOnTheShards) {
       }
     }
     merge_run(run.paths, {}, false);
-    files.push_back(stored(run.paths.result()));
+    files.push_back(test::stored_columns(run.paths.result()));
     EXPECT_EQ(read_pvs(run.paths.result()).workers.size(), shards == 50 ? 50u : shards);
   }
   EXPECT_GT(files[0].size(), 20u);
