@@ -31,12 +31,14 @@ class Display {
  public:
   explicit Display(const std::filesystem::path& folder) {
     ::setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
-    // Two that begin at once, beside what a killed one left, may take the same number.
+    // Two that begin at once, beside what a killed one left, may take the same number. One that resets when
+    // its last client goes refuses the next for a moment.
     const int lock =
         ::open((testing::TempDir() + "veduta_display.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     ::flock(lock, LOCK_EX);
-    process_ = std::make_unique<Process>("Xvfb -displayfd 1 -screen 0 1280x1024x24 -nolisten tcp 2>/dev/null",
-                                         test::Environment{}, folder / "display");
+    process_ = std::make_unique<Process>(
+        "Xvfb -displayfd 1 -noreset -screen 0 1280x1024x24 -nolisten tcp 2>/dev/null", test::Environment{},
+        folder / "display");
     within(patience_s, [&] { return process_->ended() || process_->output().ends_with('\n'); });
     const std::string number = process_->output().substr(0, process_->output().find('\n'));
     ::setenv("DISPLAY", (":" + number).c_str(), 1);
