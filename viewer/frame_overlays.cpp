@@ -77,11 +77,10 @@ glm::ivec4 map_rectangle(MapShown shown, const glm::uvec2& picture) {
 }
 
 void draw_map(Painter& painter, const CommandLister& lister, const PvsIndex& index, const ViewState& state,
-              const VisibleObjects& visible, const glm::uvec2& picture) {
+              const VisibleObjects& visible, const glm::uvec2& picture, std::vector<ColouredBox> boxes) {
   const Pose& from = state.frozen ? *state.frozen : state.pose;
   VisibleObjects all;
   all.everything = true;
-  std::vector<ColouredBox> boxes = cell_boxes(index, state, state.pose.position_m);
   if (visible.cell >= 0)
     boxes.push_back({index.cells[static_cast<size_t>(visible.cell)], cell_green, cell_green});
   const MapView view{state.pose.position_m, state.map_width_m, 90};
@@ -94,7 +93,8 @@ void draw_map(Painter& painter, const CommandLister& lister, const PvsIndex& ind
 
 void draw_overlays(Painter& painter, const CommandLister& lister, const PvsIndex& index,
                    const ViewState& state, const VisibleObjects& visible, const glm::uvec2& picture) {
-  std::vector<ColouredBox> boxes = cell_boxes(index, state, state.pose.position_m);
+  const std::vector<ColouredBox> cells = cell_boxes(index, state, state.pose.position_m);
+  std::vector<ColouredBox> boxes = cells;
   if (state.chosen) {
     Box box = index.bounds[*state.chosen];
     if (!box.empty()) boxes.push_back({box, chosen_yellow, {}});
@@ -106,7 +106,7 @@ void draw_overlays(Painter& painter, const CommandLister& lister, const PvsIndex
     painter.draw_lines(frustum_lines(*state.frozen, state.optics, 60));
   }
   if (!boxes.empty()) painter.draw_boxes(boxes);
-  if (state.map != MapShown::off) draw_map(painter, lister, index, state, visible, picture);
+  if (state.map != MapShown::off) draw_map(painter, lister, index, state, visible, picture, cells);
 }
 
 }  // namespace veduta
