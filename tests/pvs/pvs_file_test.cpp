@@ -196,6 +196,33 @@ TEST(PvsFile, DescribesOverestimates) {
   EXPECT_NE(described([](uint32_t) { return BakedCell{}; }).first.find("nobody looked"), std::string::npos);
 }
 
+/// Cells 0 to 6 have the rows {}, {0}, {0, 2} in turn; of 6 objects. In zeros counted: 0*18; 0*2 1 0*15;
+/// 0*2 1 0*3 -3 0*1 2 0*9. In bits: 00, 01, 05.
+TEST(PvsFile, DescribesWhatRowsTakeAndWouldTake) {
+  TemporaryDirectory directory;
+  write_small(directory / "a.h5");
+  const PvsFile file = read_pvs(directory / "a.h5");
+  const auto json = nlohmann::json::parse(describe_json(file, directory / "a.h5"));
+  const auto& other = json.at("other_codings_bytes_per_cell");
+  EXPECT_DOUBLE_EQ(other.at("three_bytes"), 18);
+  EXPECT_DOUBLE_EQ(other.at("three_bytes_zero_runs"), (3 * 2 + 2 * 5 + 2 * 11) / 7.0);
+  EXPECT_DOUBLE_EQ(other.at("bits"), 1);
+  EXPECT_DOUBLE_EQ(other.at("bits_zero_runs"), (3 * 2 + 2 * 1 + 2 * 1) / 7.0);
+  uint64_t sum = 0;
+  for (const auto& [path, bytes] : json.at("pvs_bytes_of").items()) {
+    EXPECT_TRUE(path.starts_with("/pvs/") || path == "/cells/row") << path;
+    EXPECT_GT(bytes, 0u) << path;
+    sum += bytes.get<uint64_t>();
+  }
+  EXPECT_EQ(json.at("pvs_bytes"), sum);
+  EXPECT_DOUBLE_EQ(json.at("pvs_bytes_per_cell"), static_cast<double>(sum) / 7);
+  const std::string text = describe(file, directory / "a.h5");
+  EXPECT_NE(text.find("instead of 18.0 with three bytes for every object, 5.4 with runs"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("or 1.0 with a bit for every object, 1.4 with runs"), std::string::npos) << text;
+  EXPECT_NE(text.find("cells/row "), std::string::npos) << text;
+}
+
 /// 6 objects over 5 are within 1.2, though 1.2 as float32 is more than as float64.
 TEST(PvsFile, OverestimateAsAskedForIsWithin) {
   TemporaryDirectory directory;
