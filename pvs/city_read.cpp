@@ -142,10 +142,11 @@ RootAttributes read_root(const Input& input, const std::string& format) {
     input.fail("/@format", fmt::format("\"{}\", this program reads \"{}\" here; was the right file given?",
                                        root.format, format));
   root.version = input.number("/", "version");
-  if (root.version != pvs_version)
-    input.fail("/@version",
-               fmt::format("version {}, this program reads {}; use the version that wrote it, or bake again",
-                           root.version, pvs_version));
+  const uint32_t ours = format == pvs_format ? pvs_version : city_version;
+  if (root.version != ours)
+    input.fail("/@version", fmt::format("version {}, this program reads {}; {}", root.version, ours,
+                                        root.version == 3 ? "merge its run directory again, or bake again"
+                                                          : "use the version that wrote it, or bake again"));
   root.unit = input.text("/", "unit");
   root.up = input.text("/", "up");
   if (root.unit != "m" || root.up != "z") input.fail("/@unit", "not in metres with z up");

@@ -50,6 +50,7 @@ void complete_city(const std::filesystem::path& scene_file, const std::filesyste
   ColumnDigests digests = scene_digests(scene_file);
   RootAttributes root;
   root.format = city_format;
+  root.version = city_version;
   root.crs = places.scene.crs, root.origin = places.scene.origin;
   write_atomically(
       file,

@@ -10,12 +10,9 @@ namespace {
 using hdf5::ColumnWriter;
 using hdf5::Output;
 
-/// Writes a dataset whose rows lie in memory as they do in the file.
 template <typename T>
 void write_rows(Output& output, const Column& column, const std::vector<T>& rows, ColumnDigests& digests) {
-  ColumnWriter writer(output, column, rows.size());
-  writer.append(rows.data(), rows.size());
-  digests[column.path] = writer.finish();
+  digests[column.path] = hdf5::write_rows(output, column, rows);
 }
 
 /// Writes member values of the items of a list as a dataset.

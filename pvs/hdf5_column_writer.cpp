@@ -23,11 +23,11 @@ size_t packing_limit() {
 void Output::submit(ColumnWriter& column, std::vector<std::byte>&& block, uint64_t rows) {
   while (packing_.size() >= packing_limit()) write_oldest();
   // Without a thread to be had, it is packed when it is asked for.
-  packing_.push_back({&column, rows,
-                      std::async(std::launch::async | std::launch::deferred,
-                                 [bytes = std::move(block), element = column.element_bytes_] {
-                                   return pack_chunk(bytes, element, deflate_level);
-                                 })});
+  packing_.push_back(
+      {&column, rows,
+       std::async(std::launch::async | std::launch::deferred,
+                  [bytes = std::move(block), element = column.element_bytes_,
+                   level = column.column_.deflate_level] { return pack_chunk(bytes, element, level); })});
 }
 
 void Output::write_oldest() {
@@ -58,8 +58,9 @@ ColumnWriter::ColumnWriter(Output& output, const Column& column, uint64_t expect
   Handle create(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
   if (H5Pset_chunk(create.get(), rank, chunk) < 0 || H5Pset_shuffle(create.get()) < 0 ||
-      H5Pset_deflate(create.get(), deflate_level) < 0 || H5Pset_fletcher32(create.get()) < 0 ||
-      H5Pset_obj_track_times(create.get(), false) < 0 || H5Pset_chunk_cache(access.get(), 0, 0, 1.0) < 0)
+      H5Pset_deflate(create.get(), static_cast<unsigned>(column.deflate_level)) < 0 ||
+      H5Pset_fletcher32(create.get()) < 0 || H5Pset_obj_track_times(create.get(), false) < 0 ||
+      H5Pset_chunk_cache(access.get(), 0, 0, 1.0) < 0)
     output_.fail(column.path, "HDF5 refuses its settings");
   dataset_ = {
       H5Dcreate2(output_.id(), column.path, type.get(), space.get(), H5P_DEFAULT, create.get(), access.get()),

@@ -103,6 +103,14 @@ class ColumnWriter {
   Digest digest_;
 };
 
+/// Writes a dataset whose rows lie in memory as they do in the file. \return the digest.
+template <typename T>
+std::string write_rows(Output& output, const Column& column, const std::vector<T>& rows) {
+  ColumnWriter writer(output, column, rows.size());
+  writer.append(rows.data(), rows.size());
+  return writer.finish();
+}
+
 /// Writes texts of fixed length, padded with NUL: no variable-length types, which have hurt many readers.
 /// `text(i)` is asked for i below `count`, in order and twice. \return the digest.
 std::string write_texts(Output& output, const Column& column, size_t count,

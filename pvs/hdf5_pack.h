@@ -6,8 +6,6 @@
 
 namespace veduta::hdf5 {
 
-inline constexpr int deflate_level = 4;
-
 /// The bytes that HDF5 1.10 stores for a chunk whose filters are shuffle, deflate of `level` and fletcher32,
 /// in this order. \param element_bytes size of the dataset's type. \throw std::bad_alloc.
 std::vector<std::byte> pack_chunk(const std::vector<std::byte>& chunk, size_t element_bytes, int level);

@@ -8,6 +8,7 @@
 
 namespace veduta {
 
+struct Forms;
 struct PvsIndex;
 
 /// Every relation between the arrays of a city. \return "DATASET: what" for the first that does not hold.
@@ -20,7 +21,11 @@ std::optional<std::string> find_place_defect(const City& city);
 std::optional<std::string> find_defect(const PvsEntry* first, const PvsEntry* last,
                                        const std::vector<SliceCounts>& slices);
 
-/// Rows against cells and entries against objects, for a file. \return "DATASET: what".
+/// Forms against objects and their slices: what an entry can name is then within them. \return "DATASET:
+/// what".
+std::optional<std::string> find_form_defect(const Forms& forms, const std::vector<SliceCounts>& slices);
+
+/// Rows against cells and the number of entries, which are for themselves. \return "DATASET: what".
 std::optional<std::string> find_row_defect(const PvsFile& file);
 
 /// Of a file that is read piece by piece: objects against the number of triangles, rows against cells and the

@@ -4,6 +4,7 @@
 
 #include "pvs/cell_columns.h"
 #include "pvs/city_columns.h"
+#include "pvs/form_columns.h"
 #include "pvs/pvs_check.h"
 #include "pvs/verification_columns.h"
 #include "scene/error.h"
@@ -15,17 +16,30 @@ namespace {
 using hdf5::ColumnReader;
 using hdf5::Input;
 
-void read_entries(const Input& input, std::vector<PvsEntry>& entries, ColumnDigests& digests) {
-  const ColumnReader object(input, column::pvs_object);
-  const ColumnReader index(input, column::pvs_index);
-  if (object.rows() != index.rows())
-    input.fail(column::pvs_index.path, "not one for each object of /pvs/object");
-  entries.resize(object.rows());
-  digests[column::pvs_object.path] = object.read([&](const std::byte* rows, uint64_t first, size_t count) {
+/// Steps and forms become objects and their three bytes in place: entries are most of what a file takes in
+/// memory. Cells and slices are there.
+void read_entries(const Input& input, PvsFile& file, ColumnDigests& digests) {
+  std::vector<PvsEntry>& entries = file.entries;
+  const ColumnReader step(input, column::pvs_object_step);
+  const ColumnReader form(input, column::pvs_form);
+  if (form.rows() != step.rows()) input.fail(column::pvs_form.path, "not one for each of /pvs/object_step");
+  entries.resize(step.rows());
+  digests[column::pvs_object_step.path] = step.read([&](const std::byte* rows, uint64_t first, size_t count) {
     for (size_t i = 0; i < count; ++i) std::memcpy(&entries[first + i].object, rows + 4 * i, 4);
   });
-  digests[column::pvs_index.path] = index.read([&](const std::byte* rows, uint64_t first, size_t count) {
-    for (size_t i = 0; i < count; ++i) std::memcpy(&entries[first + i].index, rows + 3 * i, 3);
+  input.refuse(find_row_defect(file));
+  for (size_t r = 0; r + 1 < file.row_begin.size(); ++r)
+    if (const auto defect = sum_steps(entries.data() + file.row_begin[r],
+                                      entries.data() + file.row_begin[r + 1], file.city.slices.size()))
+      input.fail(column::pvs_object_step.path, fmt::format("row {}: {}", r, *defect));
+  const Forms forms = read_forms(input, file.city.slices, digests);
+  digests[column::pvs_form.path] = form.read([&](const std::byte* rows, uint64_t first, size_t count) {
+    for (size_t i = 0; i < count; ++i) {
+      uint16_t number = 0;
+      std::memcpy(&number, rows + 2 * i, 2);
+      if (!forms.set(number, entries[first + i]))
+        input.fail(column::pvs_form.path, fmt::format("entry {}: no such form of its object", first + i));
+    }
   });
 }
 
@@ -58,9 +72,8 @@ PvsFile read_pvs(const std::filesystem::path& path) {
   file.content_digest = root.content_digest;
   file.city = read_city_columns(input, digests);
   read_cell_columns(input, file, digests);
-  read_entries(input, file.entries, digests);
+  read_entries(input, file, digests);
   finish_city(input, root, digests, file.city);
-  input.refuse(find_row_defect(file));
   if (input.has(verification_group)) {
     file.verification = read_verification(input, root.content_digest);
     input.refuse(find_defect(*file.verification, file.city.cells.size(), file.city.scene.objects));

@@ -7,6 +7,7 @@
 
 #include "pvs/cell_columns.h"
 #include "pvs/city_columns.h"
+#include "pvs/form_columns.h"
 #include "pvs/hdf5_window.h"
 #include "pvs/pvs_check.h"
 #include "pvs/verification_columns.h"
@@ -33,8 +34,9 @@ struct PvsStream::Open {
   ColumnWindow triangles{input, column::triangles};
   ColumnWindow material{input, column::material};
   ColumnWindow triangle_slices{input, column::triangle_slice};
-  ColumnWindow entry_object{input, column::pvs_object};
-  ColumnWindow entry_index{input, column::pvs_index};
+  ColumnWindow entry_step{input, column::pvs_object_step};
+  ColumnWindow entry_form{input, column::pvs_form};
+  Forms forms;  ///< of all objects: 8 bytes an object and 3 a form
 };
 
 namespace {
@@ -44,7 +46,7 @@ namespace {
 void state_the_rest(const Input& input, ColumnDigests& digests) {
   for (const Column& column :
        {column::vertices, column::triangles, column::material, column::triangle_slice, column::part_name,
-        column::part_object, column::part_begin, column::part_end, column::pvs_object, column::pvs_index})
+        column::part_object, column::part_begin, column::part_end, column::pvs_object_step, column::pvs_form})
     digests[column.path] = ColumnReader(input, column).stated_digest();
 }
 
@@ -65,20 +67,21 @@ PvsStream::PvsStream(const std::filesystem::path& file) : open_(std::make_unique
   index_.bounds = read_object_columns(input, city, digests);
   read_place_columns(input, city, digests);
   read_cell_columns(input, index_, digests);
+  open_->forms = read_forms(input, city.slices, digests);
   state_the_rest(input, digests);
   if (content_digest(city, root.header.conservative, digests) != root.content_digest)
     input.fail("/@content_digest", "does not hold; get the file again, or bake again");
 
   open_->same_rows(open_->triangles, open_->material, column::material);
   open_->same_rows(open_->triangles, open_->triangle_slices, column::triangle_slice);
-  open_->same_rows(open_->entry_object, open_->entry_index, column::pvs_index);
+  open_->same_rows(open_->entry_step, open_->entry_form, column::pvs_form);
   input.refuse(find_object_defect(city.scene.objects, city.slices, open_->triangles.reader().rows()));
   input.refuse(find_place_defect(city));
   index_.objects = std::move(city.scene.objects);
   index_.slices = std::move(city.slices);
   index_.cells = std::move(city.cells);
   index_.navigation = std::move(city.navigation);
-  input.refuse(find_row_defect(index_, open_->entry_object.reader().rows()));
+  input.refuse(find_row_defect(index_, open_->entry_step.reader().rows()));
   if (input.has(verification_group)) {
     index_.verification = read_verification(input, root.content_digest);
     input.refuse(find_defect(*index_.verification, index_.cells.size(), index_.objects));
@@ -95,12 +98,16 @@ PvsRow PvsStream::read_row(uint32_t row) const {
   const uint64_t first = index_.row_begin[row], count = index_.row_begin[row + 1] - first;
   if (count > index_.objects.size())
     open_->input.fail(column::pvs_begin.path, fmt::format("row {} lists more than there are objects", row));
-  const auto objects = open_->entry_object.read<uint32_t>(first, count);
-  const auto indices = open_->entry_index.read<VisibilityIndex>(first, count);
+  const auto steps = open_->entry_step.read<uint32_t>(first, count);
+  const auto forms = open_->entry_form.read<uint16_t>(first, count);
   PvsRow entries(count);
-  for (size_t i = 0; i < count; ++i) entries[i] = {objects[i], indices[i]};
-  if (const auto defect = find_defect(entries.data(), entries.data() + count, index_.slices))
-    open_->input.fail(column::pvs_object.path, fmt::format("row {}: {}", row, *defect));
+  for (size_t i = 0; i < count; ++i) entries[i].object = steps[i];
+  if (const auto defect = sum_steps(entries.data(), entries.data() + count, index_.objects.size()))
+    open_->input.fail(column::pvs_object_step.path, fmt::format("row {}: {}", row, *defect));
+  for (size_t i = 0; i < count; ++i)
+    if (!open_->forms.set(forms[i], entries[i]))
+      open_->input.fail(column::pvs_form.path,
+                        fmt::format("row {}: no such form of object {}", row, entries[i].object));
   return entries;
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "pvs/city_columns.h"
+#include "pvs/forms.h"
 #include "pvs/pvs_check.h"
 #include "pvs/row_table.h"
 #include "scene/atomic_file.h"
@@ -13,20 +14,22 @@ namespace {
 using hdf5::ColumnWriter;
 using hdf5::Output;
 
-/// Writes /cells and /pvs while rows come. In memory: a RowTable, and a few chunks of each dataset.
-/// Rows are called equal when their 128-bit hashes are; among 10^9 different rows, two share one with a
-/// chance of 10^-21.
+/// Writes /cells and /pvs while rows come. In memory: a RowTable, a FormTable, and a few chunks of each
+/// dataset. Rows are called equal when their 128-bit hashes are; among 10^9 different rows, two share one
+/// with a chance of 10^-21.
 class RowWriter {
  public:
   RowWriter(Output& output, uint64_t cells, size_t objects, const std::vector<std::string>& workers)
-      : cell_row_(output, column::cell_row, cells),
+      : output_(output),
+        cell_row_(output, column::cell_row, cells),
         bake_us_(output, column::cell_bake_us, cells),
         status_(output, column::cell_status, cells),
         overestimate_(output, column::cell_overestimate, cells),
         begin_(output, column::pvs_begin, cells + 1),
-        object_(output, column::pvs_object, 0),
-        index_(output, column::pvs_index, 0),
-        object_count_(objects) {
+        object_step_(output, column::pvs_object_step, 0),
+        form_(output, column::pvs_form, 0),
+        object_count_(objects),
+        forms_(objects) {
     if (!workers.empty()) worker_.emplace(output, column::cell_worker, cells);
     begin_.append(&entries_, 1);
   }
@@ -47,25 +50,29 @@ class RowWriter {
     digests[column::cell_overestimate.path] = overestimate_.finish();
     if (worker_) digests[column::cell_worker.path] = worker_->finish();
     digests[column::pvs_begin.path] = begin_.finish();
-    digests[column::pvs_object.path] = object_.finish();
-    digests[column::pvs_index.path] = index_.finish();
+    digests[column::pvs_object_step.path] = object_step_.finish();
+    digests[column::pvs_form.path] = form_.finish();
+    const Forms forms = forms_.forms();
+    digests[column::pvs_form_begin.path] = hdf5::write_rows(output_, column::pvs_form_begin, forms.begin);
+    digests[column::pvs_form_index.path] = hdf5::write_rows(output_, column::pvs_form_index, forms.index);
   }
 
  private:
   uint32_t row_of(const PvsRow& row) {
-    objects_.clear();
-    indices_.clear();
+    steps_.clear();
+    row_forms_.clear();
+    uint32_t before = 0;
     for (const PvsEntry& entry : row) {
-      objects_.push_back(entry.object);
-      indices_.push_back(entry.index);
+      steps_.push_back(entry.object - before);
+      row_forms_.push_back(forms_.number(entry));
+      before = entry.object;
     }
-    const Hash128 of_objects = hash128(objects_.data(), objects_.size() * sizeof(uint32_t));
-    const Hash128 of_indices = hash128(indices_.data(), indices_.size() * sizeof(VisibilityIndex));
-    const Hash128 both[2] = {of_objects, of_indices};
+    const Hash128 both[2] = {hash128(steps_.data(), steps_.size() * sizeof(uint32_t)),
+                             hash128(row_forms_.data(), row_forms_.size() * sizeof(uint16_t))};
     const auto [number, added] = rows_.add(hash128(both, sizeof both));
     if (added) {
-      object_.append(objects_.data(), objects_.size());
-      index_.append(indices_.data(), indices_.size());
+      object_step_.append(steps_.data(), steps_.size());
+      form_.append(row_forms_.data(), row_forms_.size());
       entries_ += row.size();
       begin_.append(&entries_, 1);
     }
@@ -82,14 +89,16 @@ class RowWriter {
     return *all_objects_;
   }
 
-  ColumnWriter cell_row_, bake_us_, status_, overestimate_, begin_, object_, index_;
+  Output& output_;
+  ColumnWriter cell_row_, bake_us_, status_, overestimate_, begin_, object_step_, form_;
   std::optional<ColumnWriter> worker_;
   uint64_t entries_ = 0;
   size_t object_count_;
   std::optional<uint32_t> all_objects_;
   RowTable rows_;
-  std::vector<uint32_t> objects_;
-  std::vector<VisibilityIndex> indices_;
+  FormTable forms_;
+  std::vector<uint32_t> steps_;
+  std::vector<uint16_t> row_forms_;
 };
 
 BakedCell ask(const CellSource& cells, uint32_t number, const std::vector<SliceCounts>& slices,
@@ -119,9 +128,10 @@ uint64_t least_bytes(const City& city) {
   return raw / 8;
 }
 
-RootAttributes root_of(const City& city, const char* format) {
+RootAttributes root_of(const City& city, const char* format, uint32_t version) {
   RootAttributes root;
   root.format = format;
+  root.version = version;
   root.crs = city.scene.crs;
   root.origin = city.scene.origin;
   return root;
@@ -155,7 +165,7 @@ struct RowsJob {
 
   std::string write(const PvsHeader& header,
                     const std::function<void(Output&, ColumnDigests&)>& write_place) const {
-    RootAttributes root = root_of(frame, pvs_format);
+    RootAttributes root = root_of(frame, pvs_format, pvs_version);
     root.header = header;
     root.header.complete = true;
     ColumnDigests digests;
@@ -203,7 +213,7 @@ std::string write_pvs(const std::filesystem::path& file, const std::filesystem::
 
 void write_city(const std::filesystem::path& file, const City& city) {
   refuse_defects(city, file);
-  RootAttributes root = root_of(city, city_format);
+  RootAttributes root = root_of(city, city_format, city_version);
   ColumnDigests digests;
   write_atomically(
       file,

@@ -1,6 +1,7 @@
 // What must hold between cells, rows and entries.
 #include <fmt/format.h>
 
+#include "pvs/forms.h"
 #include "pvs/pvs_check.h"
 #include "pvs/pvs_stream.h"
 
@@ -15,6 +16,10 @@ bool index_within(VisibilityIndex index, SliceCounts n) {
   const auto side = [](int value, int count) { return value > 0 ? value <= count : -value < count; };
   return index.z >= 0 && index.z <= n.z && side(index.x, n.x) && side(index.y, n.y) &&
          (index.x == 0 || index.y == 0) && !index.nothing();
+}
+
+std::string text_of(VisibilityIndex index) {
+  return fmt::format("{}, {}, {}", int{index.x}, int{index.y}, int{index.z});
 }
 
 /// Of a PvsFile or a PvsIndex: all but the entries.
@@ -51,20 +56,30 @@ Defect find_defect(const PvsEntry* first, const PvsEntry* last, const std::vecto
     if (entry != first && entry->object <= (entry - 1)->object)
       return fmt::format("object {} is not in ascending order", entry->object);
     if (!index_within(entry->index, slices[entry->object]))
-      return fmt::format("object {}: the index {}, {}, {} is outside of its slices", entry->object,
-                         int{entry->index.x}, int{entry->index.y}, int{entry->index.z});
+      return fmt::format("object {}: the index {} is outside of its slices", entry->object,
+                         text_of(entry->index));
+  }
+  return {};
+}
+
+Defect find_form_defect(const Forms& forms, const std::vector<SliceCounts>& slices) {
+  if (forms.begin.size() != slices.size() + 1 || forms.begin.front() != 0 ||
+      forms.begin.back() != forms.index.size())
+    return "/pvs/form_begin: not one more than there are objects, from 0 to the number of forms";
+  for (size_t o = 0; o < slices.size(); ++o) {
+    const uint64_t begin = forms.begin[o], end = forms.begin[o + 1];
+    if (begin > end || end > forms.index.size())
+      return fmt::format("/pvs/form_begin: object {} ends before it begins", o);
+    for (uint64_t f = begin; f < end; ++f)
+      if (!index_within(forms.index[f], slices[o]))
+        return fmt::format("/pvs/form_index: form {}: {} is outside of the slices of object {}", f,
+                           text_of(forms.index[f]), o);
   }
   return {};
 }
 
 Defect find_row_defect(const PvsFile& file) {
-  if (Defect defect = check_cells(file, file.city.cells.size(), file.entries.size())) return defect;
-  const size_t rows = file.row_begin.size() - 1;
-  for (size_t r = 0; r < rows; ++r)
-    if (auto defect = find_defect(file.entries.data() + file.row_begin[r],
-                                  file.entries.data() + file.row_begin[r + 1], file.city.slices))
-      return fmt::format("/pvs/object: row {}: {}", r, *defect);
-  return {};
+  return check_cells(file, file.city.cells.size(), file.entries.size());
 }
 
 Defect find_row_defect(const PvsIndex& index, uint64_t entries) {

@@ -50,9 +50,9 @@ TEST(Hdf5Input, NamesWhatIsMissingOrElsewhere) {
             }).find("/pvs/begin: a link"),
             std::string::npos);
   EXPECT_NE(message_after([](hid_t file) {
-              H5Ldelete(file, "/pvs/index", H5P_DEFAULT);
-              H5Lcreate_soft("/pvs/object", file, "/pvs/index", H5P_DEFAULT, H5P_DEFAULT);
-            }).find("/pvs/index: a link"),
+              H5Ldelete(file, "/pvs/form", H5P_DEFAULT);
+              H5Lcreate_soft("/pvs/object_step", file, "/pvs/form", H5P_DEFAULT, H5P_DEFAULT);
+            }).find("/pvs/form: a link"),
             std::string::npos);
 }
 
@@ -65,12 +65,12 @@ TEST(Hdf5Input, NamesWhatChanged) {
   });
   EXPECT_NE(value.find("/cells/row: damaged: its digest"), std::string::npos) << value;
   const std::string extent = message_after([](hid_t file) {
-    const hid_t dataset = H5Dopen2(file, "/pvs/object", H5P_DEFAULT);
+    const hid_t dataset = H5Dopen2(file, "/pvs/object_step", H5P_DEFAULT);
     const hsize_t rows = hsize_t{1} << 40;
     H5Dset_extent(dataset, &rows);
     H5Dclose(dataset);
   });
-  EXPECT_NE(extent.find("/pvs/object: damaged: claims"), std::string::npos) << extent;
+  EXPECT_NE(extent.find("/pvs/object_step: damaged: claims"), std::string::npos) << extent;
 }
 
 }  // namespace

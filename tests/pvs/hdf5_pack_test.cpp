@@ -13,14 +13,14 @@ namespace {
 
 /// The bytes that HDF5 stores for one chunk of texts of `element_bytes`.
 std::vector<std::byte> packed_by_library(const std::filesystem::path& name, std::vector<std::byte> chunk,
-                                         size_t element_bytes) {
+                                         size_t element_bytes, int level) {
   const hid_t file = H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   const hid_t type = H5Tcopy(H5T_C_S1), create = H5Pcreate(H5P_DATASET_CREATE);
   H5Tset_size(type, element_bytes);
   const hsize_t extent = chunk.size() / element_bytes, start = 0;
   H5Pset_chunk(create, 1, &extent);
   H5Pset_shuffle(create);
-  H5Pset_deflate(create, deflate_level);
+  H5Pset_deflate(create, static_cast<unsigned>(level));
   H5Pset_fletcher32(create);
   const hid_t space = H5Screate_simple(1, &extent, nullptr);
   const hid_t set = H5Dcreate2(file, "a", type, space, H5P_DEFAULT, create, H5P_DEFAULT);
@@ -44,9 +44,10 @@ TEST(Hdf5Pack, GivesTheBytesOfTheLibrary) {
       for (const unsigned values : {1u, 3u, 256u}) {  // all zero, few values, noise
         std::vector<std::byte> chunk(element_bytes * count);
         for (std::byte& byte : chunk) byte = static_cast<std::byte>(random() % values);
-        ASSERT_EQ(pack_chunk(chunk, element_bytes, deflate_level),
-                  packed_by_library(directory / "a.h5", chunk, element_bytes))
-            << element_bytes << " x " << count << ", " << values << " values";
+        for (const int level : {4, 9})
+          ASSERT_EQ(pack_chunk(chunk, element_bytes, level),
+                    packed_by_library(directory / "a.h5", chunk, element_bytes, level))
+              << element_bytes << " x " << count << ", " << values << " values, level " << level;
       }
 }
 

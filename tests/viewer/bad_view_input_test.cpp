@@ -143,7 +143,7 @@ TEST_F(BadViewInput, AByteThatChanged) {
   std::filesystem::remove_all(at("pictures"));
   std::filesystem::remove(at("s.csv"));
   // Some of it is read only when it is drawn: the folder may be there, a picture or figures are not.
-  for (const char* dataset : {"/scene/vertices", "/scene/triangles", "/pvs/object", "/cells/bounds"}) {
+  for (const char* dataset : {"/scene/vertices", "/scene/triangles", "/pvs/object_step", "/cells/bounds"}) {
     damage("bad.h5", dataset);
     expect_refused(draw("bad.h5 --path good.csv"), 65, dataset);
     EXPECT_FALSE(std::filesystem::exists(at("pictures/frame_0000.png"))) << dataset;
