@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-#include "sweep/markup.h"
+#include "scene/markup.h"
 
 namespace veduta {
 namespace {

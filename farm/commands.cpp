@@ -73,6 +73,7 @@ int veduta_main(int argc, char** argv) {
   add_merge(app, line);
   add_info(app, line);
   add_verify(app, line);
+  add_export(app, line);
   add_sweep(app, line);
   add_import(app, line);
   add_section(app, line);

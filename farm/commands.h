@@ -23,6 +23,7 @@ void add_bake(CLI::App& app, CommandLine& line);
 void add_merge(CLI::App& app, CommandLine& line);
 void add_info(CLI::App& app, CommandLine& line);
 void add_verify(CLI::App& app, CommandLine& line);
+void add_export(CLI::App& app, CommandLine& line);
 void add_import(CLI::App& app, CommandLine& line);
 void add_city(CLI::App& app, CommandLine& line);
 void add_sweep(CLI::App& app, CommandLine& line);

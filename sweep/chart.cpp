@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "scene/markup.h"
 #include "sweep/figures.h"
-#include "sweep/markup.h"
 #include "sweep/plot.h"
 #include "sweep/series.h"
 

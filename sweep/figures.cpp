@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "sweep/markup.h"
+#include "scene/markup.h"
 
 namespace veduta {
 

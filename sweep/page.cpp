@@ -1,9 +1,9 @@
 // The page: everything in one file, nothing asked for from elsewhere, no scripts.
 #include <fmt/format.h>
 
+#include "scene/markup.h"
 #include "sweep/chart.h"
 #include "sweep/figures.h"
-#include "sweep/markup.h"
 #include "sweep/series.h"
 #include "sweep/sweep.h"
 #include "sweep/table.h"

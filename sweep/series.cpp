@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "sweep/markup.h"
+#include "scene/markup.h"
 
 namespace veduta {
 namespace {

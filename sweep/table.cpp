@@ -6,8 +6,8 @@
 #include <set>
 #include <vector>
 
+#include "scene/markup.h"
 #include "sweep/figures.h"
-#include "sweep/markup.h"
 #include "sweep/series.h"
 
 namespace veduta {

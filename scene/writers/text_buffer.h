@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -50,8 +51,8 @@ class TextBuffer {
     }
     size_ += static_cast<size_t>(at - begin);
   }
-  /// The shortest text that reads back as the same double.
-  void add_exact(double value) {
+  /// The shortest text that reads back as the same float, or the same double.
+  void add_exact(std::floating_point auto value) {
     char* const begin = room(32);
     size_ += static_cast<size_t>(std::to_chars(begin, begin + 32, value).ptr - begin);
   }

@@ -12,7 +12,8 @@ declare -A may=(
   [merge]="pvs scene"
   [verify]="pvs scene"
   [sweep]="verify pvs scene"
-  [farm]="merge sweep verify pvs scene worker/protocol.h worker/settings.h worker/settings_keys.h worker/import_options.h"
+  [export]="pvs scene"
+  [farm]="export merge sweep verify pvs scene worker/protocol.h worker/settings.h worker/settings_keys.h worker/import_options.h"
   [viewer]="gl pvs scene"
 )
 # System headers that only some folders may include: a pattern, then those folders.

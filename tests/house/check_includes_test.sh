@@ -34,6 +34,7 @@ expect_bad worker '#include "farm/log.h"'
 expect_bad worker '#include "viewer/frame.h"'
 expect_bad merge '#include "worker/protocol.h"'
 expect_bad verify '#include "farm/log.h"'
+expect_bad export '#include "farm/log.h"'
 expect_bad farm '#include "worker/panorama.h"'
 expect_bad farm '#include "gl/egl_context.h"'
 expect_bad farm '#include "viewer/frame.h"'
@@ -42,9 +43,9 @@ expect_bad viewer '#include "verify/verify.h"'
 expect_bad scene '#include "scene.h"'
 expect_bad viewer '#include "../scene/scene.h"'
 expect_bad viewer '#include <scene/scene.h>'
-for folder in scene pvs gl worker merge verify viewer; do expect_bad $folder '#include <mpi.h>'; done
-for folder in scene gl worker merge verify farm viewer; do expect_bad $folder '#include <hdf5.h>'; done
-for folder in scene pvs merge verify farm; do
+for folder in scene pvs gl worker merge verify export viewer; do expect_bad $folder '#include <mpi.h>'; done
+for folder in scene gl worker merge verify export farm viewer; do expect_bad $folder '#include <hdf5.h>'; done
+for folder in scene pvs merge verify export farm; do
   expect_bad $folder '#include <epoxy/gl.h>'
   expect_bad $folder '#include <EGL/egl.h>'
 done

@@ -5,8 +5,8 @@
 
 #include <random>
 
+#include "scene/markup.h"
 #include "sweep/axis.h"
-#include "sweep/markup.h"
 
 namespace veduta {
 namespace {

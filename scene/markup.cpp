@@ -1,4 +1,4 @@
-#include "sweep/markup.h"
+#include "scene/markup.h"
 
 #include <fmt/format.h>
 
