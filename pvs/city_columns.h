@@ -13,7 +13,9 @@ void write_place_columns(hdf5::Output& output, const City& city, ColumnDigests& 
 enum class CityParts { all, to_bake };
 /// Reads what these two wrote, or what baking needs of it: surfaces and ground then have no values, their
 /// digests are those that they should have. Digests are compared, relations not yet.
-City read_city_columns(const hdf5::Input& input, ColumnDigests& digests, CityParts parts = CityParts::all);
+/// \param bounds  replaced by what the file says of the bounds of each object
+City read_city_columns(const hdf5::Input& input, ColumnDigests& digests, std::vector<Box>& bounds,
+                       CityParts parts = CityParts::all);
 
 /// Of it, the objects without their geometry. \return the bounds of each.
 std::vector<Box> read_object_columns(const hdf5::Input& input, City& city, ColumnDigests& digests);

@@ -37,13 +37,13 @@ void read_names(const Input& input, const Column& column, Items& items, ColumnDi
   for (size_t i = 0; i < names.size(); ++i) items[i].name = std::move(names[i]);
 }
 
-void read_scene(const Input& input, City& city, ColumnDigests& digests) {
+std::vector<Box> read_scene(const Input& input, City& city, ColumnDigests& digests) {
   Scene& scene = city.scene;
   scene.vertices = read_rows<glm::vec3>(input, column::vertices, digests);
   scene.triangles = read_rows<glm::uvec3>(input, column::triangles, digests);
   scene.material = read_rows<Material>(input, column::material, digests);
   city.triangle_slices = read_rows<TriangleSlices>(input, column::triangle_slice, digests);
-  read_object_columns(input, city, digests);
+  std::vector<Box> bounds = read_object_columns(input, city, digests);
   read_names(input, column::part_name, scene.parts, digests);
   read_members<uint32_t>(
       input, column::part_object, scene.parts, [](Part& p, uint32_t object) { p.object = object; }, digests);
@@ -51,6 +51,7 @@ void read_scene(const Input& input, City& city, ColumnDigests& digests) {
       input, column::part_begin, scene.parts, [](Part& p, uint64_t t) { p.triangle_begin = t; }, digests);
   read_members<uint64_t>(
       input, column::part_end, scene.parts, [](Part& p, uint64_t t) { p.triangle_end = t; }, digests);
+  return bounds;
 }
 
 void pass_over(const Input& input, const Column& column, ColumnDigests& digests) {
@@ -128,9 +129,10 @@ void read_place_columns(const Input& input, City& city, ColumnDigests& digests, 
   city.cells = read_rows<Box>(input, column::cell_bounds, digests);
 }
 
-City read_city_columns(const Input& input, ColumnDigests& digests, CityParts parts) {
+City read_city_columns(const Input& input, ColumnDigests& digests, std::vector<Box>& bounds,
+                       CityParts parts) {
   City city;
-  read_scene(input, city, digests);
+  bounds = read_scene(input, city, digests);
   read_place_columns(input, city, digests, parts);
   return city;
 }

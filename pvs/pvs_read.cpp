@@ -43,11 +43,16 @@ void read_entries(const Input& input, PvsFile& file, ColumnDigests& digests) {
   });
 }
 
-/// The city with its root, every relation and the content digest checked.
-void finish_city(const Input& input, const RootAttributes& root, const ColumnDigests& digests, City& city) {
+/// The city with its root, every relation and the content digest checked. `bounds`: of its objects, as
+/// stated.
+void finish_city(const Input& input, const RootAttributes& root, const ColumnDigests& digests,
+                 const std::vector<Box>& bounds, City& city) {
   city.scene.crs = root.crs;
   city.scene.origin = root.origin;
   input.refuse(find_defect(city));
+  for (size_t i = 0; i < bounds.size(); ++i)
+    if (city.scene.bounds(i) != bounds[i])
+      input.fail(column::object_bounds.path, fmt::format("object {}: not those of its triangles", i));
   if (content_digest(city, root.header.conservative, digests) != root.content_digest)
     input.fail("/@content_digest", "does not hold; get the file again, or bake again");
 }
@@ -56,8 +61,9 @@ City read_prepared(const std::filesystem::path& path, CityParts parts) {
   const Input input(path);
   const RootAttributes root = read_root(input, city_format);
   ColumnDigests digests;
-  City city = read_city_columns(input, digests, parts);
-  finish_city(input, root, digests, city);
+  std::vector<Box> bounds;
+  City city = read_city_columns(input, digests, bounds, parts);
+  finish_city(input, root, digests, bounds, city);
   return city;
 }
 
@@ -70,10 +76,11 @@ PvsFile read_pvs(const std::filesystem::path& path) {
   PvsFile file;
   file.header = root.header;
   file.content_digest = root.content_digest;
-  file.city = read_city_columns(input, digests);
+  std::vector<Box> bounds;
+  file.city = read_city_columns(input, digests, bounds);
   read_cell_columns(input, file, digests);
   read_entries(input, file, digests);
-  finish_city(input, root, digests, file.city);
+  finish_city(input, root, digests, bounds, file.city);
   if (input.has(verification_group)) {
     file.verification = read_verification(input, root.content_digest);
     input.refuse(find_defect(*file.verification, file.city.cells.size(), file.city.scene.objects));
