@@ -27,7 +27,7 @@ void Output::submit(ColumnWriter& column, std::vector<std::byte>&& block, uint64
       {&column, rows,
        std::async(std::launch::async | std::launch::deferred,
                   [bytes = std::move(block), element = column.element_bytes_,
-                   level = column.column_.deflate_level] { return pack_chunk(bytes, element, level); })});
+                   deflate = column.column_.deflate] { return pack_chunk(bytes, element, deflate); })});
 }
 
 void Output::write_oldest() {
@@ -58,7 +58,7 @@ ColumnWriter::ColumnWriter(Output& output, const Column& column, uint64_t expect
   Handle create(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
   if (H5Pset_chunk(create.get(), rank, chunk) < 0 || H5Pset_shuffle(create.get()) < 0 ||
-      H5Pset_deflate(create.get(), static_cast<unsigned>(column.deflate_level)) < 0 ||
+      H5Pset_deflate(create.get(), static_cast<unsigned>(column.deflate.level)) < 0 ||
       H5Pset_fletcher32(create.get()) < 0 || H5Pset_obj_track_times(create.get(), false) < 0 ||
       H5Pset_chunk_cache(access.get(), 0, 0, 1.0) < 0)
     output_.fail(column.path, "HDF5 refuses its settings");

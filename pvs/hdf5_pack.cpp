@@ -46,18 +46,35 @@ uint32_t fletcher32(const std::byte* data, size_t bytes) {
   return fold(second) << 16 | fold(first);
 }
 
+/// With room behind it for a checksum.
+std::vector<std::byte> deflated(const std::vector<std::byte>& bytes, Deflate how) {
+  constexpr int window_bits = 15, memory_level = 8;  // zlib's own, as in HDF5
+  z_stream stream{};
+  if (::deflateInit2(&stream, how.level, Z_DEFLATED, window_bits, memory_level,
+                     how.filtered ? Z_FILTERED : Z_DEFAULT_STRATEGY) != Z_OK)
+    throw std::bad_alloc();  // what it is given is right: nothing else can fail
+  std::vector<std::byte> packed(::deflateBound(&stream, bytes.size()) + sizeof(uint32_t));
+  stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(bytes.data()));  // read alone
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  const int result = ::deflate(&stream, Z_FINISH);
+  packed.resize(stream.total_out);
+  ::deflateEnd(&stream);
+  if (result != Z_STREAM_END) throw std::bad_alloc();
+  return packed;
+}
+
 }  // namespace
 
-std::vector<std::byte> pack_chunk(const std::vector<std::byte>& chunk, size_t element_bytes, int level) {
+std::vector<std::byte> pack_chunk(const std::vector<std::byte>& chunk, size_t element_bytes,
+                                  Deflate deflate) {
   const std::vector<std::byte> shuffled = element_bytes > 1 ? shuffle(chunk, element_bytes) : chunk;
-  uLongf bytes = ::compressBound(shuffled.size());
-  std::vector<std::byte> packed(bytes + sizeof(uint32_t));
-  const int result = ::compress2(reinterpret_cast<Bytef*>(packed.data()), &bytes,
-                                 reinterpret_cast<const Bytef*>(shuffled.data()), shuffled.size(), level);
-  if (result != Z_OK) throw std::bad_alloc();  // the buffer is large enough: nothing else can fail
+  std::vector<std::byte> packed = deflated(shuffled, deflate);
+  const size_t bytes = packed.size();
+  packed.resize(bytes + sizeof(uint32_t));
   const uint32_t sum = fletcher32(packed.data(), bytes);
   for (unsigned i = 0; i < sizeof sum; ++i) packed[bytes + i] = static_cast<std::byte>(sum >> (8 * i));
-  packed.resize(bytes + sizeof sum);
   return packed;
 }
 

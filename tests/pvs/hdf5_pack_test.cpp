@@ -45,7 +45,7 @@ TEST(Hdf5Pack, GivesTheBytesOfTheLibrary) {
         std::vector<std::byte> chunk(element_bytes * count);
         for (std::byte& byte : chunk) byte = static_cast<std::byte>(random() % values);
         for (const int level : {4, 9})
-          ASSERT_EQ(pack_chunk(chunk, element_bytes, level),
+          ASSERT_EQ(pack_chunk(chunk, element_bytes, {level, false}),
                     packed_by_library(directory / "a.h5", chunk, element_bytes, level))
               << element_bytes << " x " << count << ", " << values << " values, level " << level;
       }
@@ -56,16 +56,18 @@ TEST(Hdf5Pack, UnpacksWhatItPacked) {
   for (const size_t element : {1, 2, 4, 8, 40}) {
     std::vector<std::byte> chunk(element * 777);
     for (std::byte& b : chunk) b = static_cast<std::byte>(random() % 7);
-    std::vector<std::byte> back(chunk.size());
-    EXPECT_TRUE(unpack_chunk(pack_chunk(chunk, element, 4), element, back));
-    EXPECT_EQ(back, chunk) << element;
+    for (const Deflate deflate : {Deflate{4, false}, {9, false}, {9, true}}) {
+      std::vector<std::byte> back(chunk.size());
+      EXPECT_TRUE(unpack_chunk(pack_chunk(chunk, element, deflate), element, back));
+      EXPECT_EQ(back, chunk) << element;
+    }
   }
 }
 
 TEST(Hdf5Pack, RefusesWhatIsDamagedOrOfAnotherSize) {
   std::vector<std::byte> chunk(4000, std::byte{5}), back(chunk.size());
   chunk[77] = std::byte{9};
-  const std::vector<std::byte> packed = pack_chunk(chunk, 4, 4);
+  const std::vector<std::byte> packed = pack_chunk(chunk, 4, {});
   for (size_t i = 0; i < packed.size(); ++i) {
     std::vector<std::byte> bad = packed;
     bad[i] ^= std::byte{0x10};
