@@ -15,6 +15,8 @@ namespace {
 constexpr uint64_t deflate_ratio_limit = 1100;
 constexpr uint64_t text_bytes_limit = 1u << 20;
 constexpr uint64_t chunk_bytes_limit = 256u << 20;
+constexpr const char* index_damage =
+    "damaged: its chunk index does not hold; get the file again, or bake again";
 
 }  // namespace
 
@@ -48,6 +50,7 @@ ColumnReader::ColumnReader(const Input& input, const Column& column) : input_(in
   if (column.columns > 0 && columns_ != column.columns)
     input.fail(column.path, fmt::format("{} columns where {} belong", columns_, column.columns));
   stored_bytes_ = H5Dget_storage_size(dataset_.get());
+  if (stored_bytes_ == 0 && rows_ > 0 && columns_ > 0) input.fail(column.path, index_damage);
   const uint64_t element = element_bytes(column.element, text_bytes);
   const uint64_t most = std::min(stored_bytes_, input.file_bytes()) * deflate_ratio_limit;
   if ((column.columns == 0 && columns_ > most / element + 6) ||
@@ -90,7 +93,7 @@ void ColumnReader::read_chunk(uint64_t first, std::vector<std::byte>& packed,
   if (H5Dget_chunk_info_by_coord(dataset_.get(), offset, &skipped, &address, &bytes) < 0 ||
       address == HADDR_UNDEF || skipped != 0 || bytes > input_.file_bytes() ||
       address > input_.file_bytes() - bytes)
-    input_.fail(column_.path, "damaged: its chunk index does not hold; get the file again, or bake again");
+    input_.fail(column_.path, index_damage);
   packed.resize(bytes);
   uint32_t filters = 0;
   if (H5Dread_chunk(dataset_.get(), H5P_DEFAULT, offset, &filters, packed.data()) < 0 ||

@@ -35,9 +35,10 @@ Output::Output(const std::filesystem::path& file, Start start) : path_(file) {
   require_space(0);
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   Handle create(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-  // Version 1.8 (2008) brought checksums of metadata. No lock: the name is ours alone, and locks fail on some
-  // shared file systems. The root's attributes stay in its header, where the simplest readers find them.
-  if (H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V18) < 0 ||
+  // Version 1.10 (2016) brought checksums of the indices of chunks; those of other metadata are older. No
+  // lock: the name is ours alone, and locks fail on some shared file systems. The root's attributes stay in
+  // its header, where the simplest readers find them.
+  if (H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110) < 0 ||
       H5Pset_file_locking(access.get(), false, true) < 0 || H5Pset_obj_track_times(create.get(), false) < 0 ||
       H5Pset_attr_phase_change(create.get(), 64, 32) < 0)
     fail("/", "HDF5 refuses its settings");

@@ -22,7 +22,7 @@ void copy_output(const std::filesystem::path& from, const std::filesystem::path&
 class ColumnWriter;
 class Input;
 
-/// A file to be written. Readable by every HDF5 from 1.8 on; the bytes depend on the content alone (no time
+/// A file to be written. Readable by every HDF5 from 1.10 on; the bytes depend on the content alone (no time
 /// stamps).
 class Output {
  public:

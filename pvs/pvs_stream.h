@@ -49,8 +49,9 @@ struct PvsIndex {
 /// are read: the checksum of every chunk, every number in range, and triangles against the bounds of their
 /// object. HDF5 is not safe with threads: a process uses all of its streams and files from one thread at a
 /// time. Some MiB of unpacked chunks are kept, so that neighbouring rows and objects are cheap to read one
-/// after the other. What only read_pvs notices, which compares the digests of rows and geometry: a chunk
-/// index that leads, unharmed, to another chunk of the same size.
+/// after the other. Their index has a checksum too. What only read_pvs notices, which compares the
+/// digests of rows and geometry: two chunks of one dataset, packed to the same number of bytes, that changed
+/// places; and what was changed on purpose.
 class PvsStream {
  public:
   /// \throw Error as read_pvs.

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "pvs/pvs_stream.h"
+#include "tests/pvs/chunk_index.h"
 #include "tests/pvs/small_verification.h"
 #include "tests/pvs/stream_compare.h"
 
@@ -105,21 +106,19 @@ TEST_F(PvsStreamDamage, CutAnywhere) {
     EXPECT_NE(read_mutant(bytes_.substr(0, bytes_.size() * i / 40)), Found::nothing) << i;
 }
 
-/// The chunk indices of two datasets, each well-formed by itself, mixed up: where triangles lie is held
-/// against bounds that were checked at the opening.
+/// The chunk indices of two datasets, each well-formed by itself, mixed up and their checksums made to hold:
+/// where triangles lie is held against bounds that were checked at the opening.
 TEST_F(PvsStreamDamage, ChunkIndicesMixedUpDoNotMoveTriangles) {
-  std::vector<size_t> nodes;
-  for (size_t at = bytes_.find("TREE"); at != std::string::npos; at = bytes_.find("TREE", at + 4))
-    if (bytes_[at + 4] == 1) nodes.push_back(at);  // of a dataset's chunks
-  ASSERT_GT(nodes.size(), 20u);
-  constexpr size_t first_chunk_bytes = 24 + 2 * 40;
+  const std::vector<test::ChunkIndex> indices = test::chunk_indices(bytes_);
+  ASSERT_GT(indices.size(), 30u);
   int refused = 0, refused_late = 0;
-  for (const size_t a : nodes)
-    for (const size_t b : nodes) {
-      if (a == b) continue;
-      SCOPED_TRACE(std::to_string(a) + " from " + std::to_string(b));
+  for (const test::ChunkIndex& a : indices)
+    for (const test::ChunkIndex& b : indices) {
+      if (a.at == b.at || a.element_bytes != b.element_bytes) continue;
+      SCOPED_TRACE(std::to_string(a.at) + " from " + std::to_string(b.at));
       std::string bytes = bytes_;
-      bytes.replace(a, first_chunk_bytes, bytes_.substr(b, first_chunk_bytes));
+      bytes.replace(a.element(0), a.element_bytes, bytes_.substr(b.element(0), b.element_bytes));
+      a.mend_sum(bytes);
       test::write_bytes(directory_ / "mutant.h5", bytes);
       bool opened = false;
       try {
@@ -140,6 +139,42 @@ TEST_F(PvsStreamDamage, ChunkIndicesMixedUpDoNotMoveTriangles) {
     }
   EXPECT_GT(refused, 500);
   EXPECT_GT(refused_late, 10);
+}
+
+/// Two chunks of one dataset taken for one another: each holds its own checksum, and every number in it may
+/// well be in range. The index has a checksum.
+TEST(PvsStreamDamageOfChunks, AnIndexThatNamesTwoChunksTheOtherWayRound) {
+  test::TemporaryDirectory directory;
+  const auto source = [](uint32_t c) {
+    BakedCell cell{CellStatus::baked, c, {}};
+    for (uint32_t i = c % 7; i < 30000; i += 7 + c % 13)
+      cell.row.push_back({i, {0, 0, static_cast<int8_t>(1 + (c / 50 + i) % 2)}});
+    return cell;
+  };
+  write_pvs(directory / "a.h5", test::small_city(30000, 100), test::small_header(), source);
+  const std::string whole = test::read_bytes(directory / "a.h5");
+  int swapped = 0;
+  for (const test::ChunkIndex& index : test::chunk_indices(whole)) {
+    if (!index.has(whole, 1)) continue;
+    std::string bytes = whole;
+    bytes.replace(index.element(0), index.element_bytes, whole, index.element(1), index.element_bytes);
+    bytes.replace(index.element(1), index.element_bytes, whole, index.element(0), index.element_bytes);
+    test::write_bytes(directory / "b.h5", bytes);
+    std::string message;
+    EXPECT_EQ(test::status_of(
+                  [&] {
+                    const PvsStream stream(directory / "b.h5");
+                    stream.read_objects(0, 30001);
+                    for (uint32_t row = 0; row + 1 < stream.index().row_begin.size(); ++row)
+                      stream.read_row(row);
+                  },
+                  &message),
+              ExitStatus::bad_input)
+        << index.at;
+    EXPECT_NE(message.find(": its chunk index does not hold"), std::string::npos) << message;
+    ++swapped;
+  }
+  EXPECT_GE(swapped, 6) << "vertices, triangles, their slices, bounds, steps and forms";
 }
 
 }  // namespace
