@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <map>
 
 namespace veduta {
@@ -60,40 +59,6 @@ TEST_F(VisibleObjectsTest, EyesInTwoCellsUniteTheirRows) {
   EXPECT_EQ(at(-0.01f).entries, rows_[0]) << "only the right eye's";
   state_.stereo = StereoMode::left;
   EXPECT_EQ(at(-0.01f).entries, rows_[1]);
-}
-
-TEST_F(VisibleObjectsTest, AUnionDrawsWhatEitherRowDraws) {
-  constexpr int8_t slices = 3;
-  std::vector<VisibilityIndex> indices;
-  for (int8_t z = 0; z <= slices + 1; ++z) {
-    indices.push_back({0, 0, z});
-    for (int8_t k = -slices; k <= slices; ++k)
-      if (k != 0) indices.push_back({k, 0, z}), indices.push_back({0, k, z});
-  }
-  std::vector<TriangleSlices> triangles;
-  for (uint8_t x = 1; x <= slices; ++x)
-    for (uint8_t y = 1; y <= slices; ++y)
-      for (uint8_t z = 1; z <= slices; ++z)
-        for (uint8_t long_one = 0; long_one < 2; ++long_one)
-          triangles.push_back({x, static_cast<uint8_t>(long_one ? slices : x), y,
-                               static_cast<uint8_t>(long_one ? slices : y), z,
-                               static_cast<uint8_t>(long_one ? slices : z)});
-  for (const VisibilityIndex& a : indices)
-    for (const VisibilityIndex& b : indices) {
-      rows_[0] = {{7, a}}, rows_[1] = {{7, b}};
-      const VisibleObjects visible = at(0.01f);
-      ASSERT_LE(visible.entries.size(), 2u);
-      for (const TriangleSlices& t : triangles)
-        ASSERT_EQ(std::any_of(visible.entries.begin(), visible.entries.end(),
-                              [&](const PvsEntry& entry) { return draws(entry.index, t); }),
-                  draws(a, t) || draws(b, t));
-      EXPECT_TRUE(visible.entries.size() < 2 || visible.entries[1].index.z == 0) << "z is drawn once";
-      for (const PvsEntry& entry : visible.entries) {
-        EXPECT_EQ(entry.object, 7u);
-        EXPECT_FALSE(entry.index.nothing());
-        EXPECT_TRUE(entry.index.x == 0 || entry.index.y == 0) << "drawn from two ranges at the most";
-      }
-    }
 }
 
 TEST_F(VisibleObjectsTest, WholeBuildingsAreWholeAndOnce) {

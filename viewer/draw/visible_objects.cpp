@@ -3,49 +3,11 @@
 #include <toml++/toml.h>
 #include <algorithm>
 #include <array>
-#include <utility>
+
+#include "pvs/unite_rows.h"
 
 namespace veduta {
 namespace {
-
-// What either of two entries of one object draws. Bytes of one kind fall together: the one that reaches
-// further draws what both do. Bytes of two kinds do not: then a second entry has what the first lacks.
-std::pair<VisibilityIndex, VisibilityIndex> unite(VisibilityIndex a, VisibilityIndex b) {
-  const auto reaches = [](int8_t k, int8_t l) { return k == 0 || (l != 0 && l < k) ? l : k; };
-  a.z = b.z = reaches(a.z, b.z);
-  if (a.z == 1) return {completely_visible, {}};
-  if (a.x > 0 && b.x > 0) a.x = b.x = std::max(a.x, b.x);
-  if (a.x < 0 && b.x < 0) a.x = b.x = std::max(a.x, b.x);  // -1 draws from slice 2 on, -2 from 3
-  if (a.y > 0 && b.y > 0) a.y = b.y = std::max(a.y, b.y);
-  if (a.y < 0 && b.y < 0) a.y = b.y = std::max(a.y, b.y);
-  const bool a_adds = a.x != 0 || a.y != 0, b_adds = b.x != 0 || b.y != 0;
-  if (!b_adds || (a.x == b.x && a.y == b.y)) return {a, {}};
-  if (!a_adds) return {b, {}};
-  b.z = 0;
-  return {a, b};
-}
-
-void add(VisibleObjects& visible, const PvsEntry& entry) {
-  if (!entry.index.nothing()) visible.entries.push_back(entry);
-}
-
-void unite_rows(VisibleObjects& visible, const PvsRow& a, const PvsRow& b) {
-  visible.entries.reserve(a.size() + b.size());
-  auto i = a.begin(), j = b.begin();
-  while (i != a.end() && j != b.end())
-    if (i->object < j->object)
-      add(visible, *i++);
-    else if (j->object < i->object)
-      add(visible, *j++);
-    else {
-      const auto [first, second] = unite(i->index, j->index);
-      add(visible, {i->object, first});
-      add(visible, {i->object, second});
-      ++i, ++j;
-    }
-  visible.entries.insert(visible.entries.end(), i, a.end());
-  visible.entries.insert(visible.entries.end(), j, b.end());
-}
 
 // By ascending number, each once.
 std::vector<int64_t> cells_of_eyes(const PvsIndex& index, const Pose& pose, const ViewState& state,
@@ -90,7 +52,7 @@ VisibleObjects visible_objects(const PvsIndex& index, const RowOf& row, const Vi
   visible.waiting = !rows[0] || !rows[1];
   visible.everything = visible.waiting;
   if (visible.everything) return visible;
-  unite_rows(visible, *rows[0], *rows[1]);
+  unite_rows(*rows[0], *rows[1], visible.entries);
   if (state.pvs == PvsUse::buildings) take_whole_buildings(visible.entries);
   return visible;
 }
