@@ -62,7 +62,7 @@ struct Entry {
 using Row = std::vector<Entry>;
 
 /// What either row draws, for two eyes in two cells: replaces `out`. An object may then have two entries, one
-/// after the other.
+/// after the other. What was united may be united again.
 void unite(const Row& left, const Row& right, Row& out);
 
 /// Elements [first, first + count) of Geometry::indices.
@@ -77,7 +77,7 @@ class Geometry {
   uint32_t first_object = 0, last_object = 0;  ///< [first, last)
   std::vector<Point> vertices;                 ///< [V]
   std::vector<uint32_t> indices;               ///< [5 * 3T] corners of triangles, one order after the other
-  std::vector<uint8_t> material;  ///< [T] of the triangles of the first order (docs/format.md says which)
+  std::vector<uint8_t> material;  ///< [5T] of the triangle of indices[3i..3i+2] (docs/format.md says which)
 
   /// Adds what the entry draws of its object to `out`, in constant time. Ranges of one entry may overlap.
   /// Objects that are not of this geometry add nothing.
@@ -97,7 +97,8 @@ class Geometry {
 enum class CellStatus : uint8_t { baked, coarse, all_visible };
 
 /// An open file. In memory are its objects and cells, and as much of rows and geometry as `memory_bytes`
-/// allows; the rest is read when it is asked for. One thread at a time uses the Cities of a process.
+/// allows; the rest is read when it is asked for. One thread at a time uses the Cities of a process, and HDF5
+/// where the program uses it itself. A number of an object or cell that is not there is an Error.
 class City {
  public:
   /// \param memory_bytes room for what was read of rows and geometry, so that it need not be read again.
@@ -114,7 +115,7 @@ class City {
 
   uint32_t object_count() const;
   const Object& object(uint32_t number) const;
-  /// Objects whose bounds touch the box, ascending.
+  /// Objects whose bounds touch the box, ascending. Every object is looked at.
   std::vector<uint32_t> objects_in(const Box& box) const;
 
   uint32_t cell_count() const;
@@ -126,7 +127,7 @@ class City {
   /// Replaces `out` by the row of a cell. \throw Error when it is damaged.
   void read_row(uint32_t cell, Row& out) const;
 
-  /// Of objects [first, last). \throw Error when it is damaged.
+  /// Of objects [first, last): 65 bytes a triangle and 12 a vertex. \throw Error when it is damaged.
   Geometry read_geometry(uint32_t first, uint32_t last) const;
 
  private:
