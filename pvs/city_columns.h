@@ -10,9 +10,10 @@ namespace veduta {
 void write_scene_columns(hdf5::Output& output, const City& city, ColumnDigests& digests);
 /// Writes /navigation and /cells/bounds, likewise.
 void write_place_columns(hdf5::Output& output, const City& city, ColumnDigests& digests);
-enum class CityParts { all, to_bake };
-/// Reads what these two wrote, or what baking needs of it: surfaces and ground then have no values, their
-/// digests are those that they should have. Digests are compared, relations not yet.
+enum class CityParts { all, to_bake, to_look_up };
+/// Reads what these two wrote, or what is needed of it: to bake, surfaces and ground have no values, and to
+/// look up cells, free space has none either; their digests are those that they should have. Digests are
+/// compared, relations not yet.
 /// \param bounds  replaced by what the file says of the bounds of each object
 City read_city_columns(const hdf5::Input& input, ColumnDigests& digests, std::vector<Box>& bounds,
                        CityParts parts = CityParts::all);
@@ -22,6 +23,9 @@ std::vector<Box> read_object_columns(const hdf5::Input& input, City& city, Colum
 /// Of it, navigation and cells.
 void read_place_columns(const hdf5::Input& input, City& city, ColumnDigests& digests,
                         CityParts parts = CityParts::all);
+
+/// Reads all of a navigation whose digests were passed over.
+void read_navigation_columns(const hdf5::Input& input, Navigation& navigation);
 
 /// Reads where the lattices of a navigation lie, and nothing of what is in them.
 void read_lattices(const hdf5::Input& input, Navigation& navigation);

@@ -80,7 +80,7 @@ void read_forest(const Input& input, const column::ForestColumns& columns, Octre
 void read_navigation(const Input& input, CityParts parts, Navigation& navigation, ColumnDigests& digests) {
   const bool all = parts == CityParts::all;
   read_lattices(input, navigation);
-  read_forest(input, column::free_forest, navigation.free, true, digests);
+  read_forest(input, column::free_forest, navigation.free, parts != CityParts::to_look_up, digests);
   read_forest(input, column::surface_forest, navigation.surfaces, all, digests);
   HeightField& ground = navigation.ground;
   if (!all) return pass_over(input, column::ground_height, digests);
@@ -104,6 +104,11 @@ void read_lattices(const Input& input, Navigation& navigation) {
   navigation.ground.lower_x = corner[0];
   navigation.ground.lower_y = corner[1];
   navigation.ground.step_m = input.floats("/navigation/ground", "step_m", 1)[0];
+}
+
+void read_navigation_columns(const Input& input, Navigation& navigation) {
+  ColumnDigests digests;
+  read_navigation(input, CityParts::all, navigation, digests);
 }
 
 std::vector<Box> read_object_columns(const Input& input, City& city, ColumnDigests& digests) {

@@ -19,8 +19,16 @@ using hdf5::ColumnReader;
 using hdf5::ColumnWindow;
 using hdf5::Input;
 
+namespace {
+
+/// Of a block that is being read: as it is stored, shuffled, and whole.
+constexpr uint64_t unpacking_bytes = 3 * chunk_bytes;
+
+}  // namespace
+
 struct PvsStream::Open {
-  explicit Open(const std::filesystem::path& file) : input(file) {}
+  Open(const std::filesystem::path& file, uint64_t memory_bytes)
+      : input(file), cache(memory_bytes - std::min(memory_bytes, unpacking_bytes)) {}
 
   /// \throw Error(bad_input) where datasets that belong together are of different lengths.
   void same_rows(const ColumnWindow& one, const ColumnWindow& other, const Column& place) const {
@@ -30,12 +38,13 @@ struct PvsStream::Open {
 
   Input input;
   RootAttributes root = read_root(input, pvs_format);  // before datasets, of which another version has others
-  ColumnWindow vertices{input, column::vertices};
-  ColumnWindow triangles{input, column::triangles};
-  ColumnWindow material{input, column::material};
-  ColumnWindow triangle_slices{input, column::triangle_slice};
-  ColumnWindow entry_step{input, column::pvs_object_step};
-  ColumnWindow entry_form{input, column::pvs_form};
+  BlockCache cache;
+  ColumnWindow vertices{input, column::vertices, cache};
+  ColumnWindow triangles{input, column::triangles, cache};
+  ColumnWindow material{input, column::material, cache};
+  ColumnWindow triangle_slices{input, column::triangle_slice, cache};
+  ColumnWindow entry_step{input, column::pvs_object_step, cache};
+  ColumnWindow entry_form{input, column::pvs_form, cache};
   Forms forms;  ///< of all objects: 8 bytes an object and 3 a form
 };
 
@@ -52,7 +61,8 @@ void state_the_rest(const Input& input, ColumnDigests& digests) {
 
 }  // namespace
 
-PvsStream::PvsStream(const std::filesystem::path& file) : open_(std::make_unique<Open>(file)) {
+PvsStream::PvsStream(const std::filesystem::path& file, uint64_t memory_bytes)
+    : open_(std::make_unique<Open>(file, memory_bytes)) {
   const Input& input = open_->input;
   const RootAttributes& root = open_->root;
   index_.header = root.header;
@@ -65,7 +75,7 @@ PvsStream::PvsStream(const std::filesystem::path& file) : open_(std::make_unique
   city.scene.crs = root.crs;
   city.scene.origin = root.origin;
   index_.bounds = read_object_columns(input, city, digests);
-  read_place_columns(input, city, digests);
+  read_place_columns(input, city, digests, CityParts::to_look_up);
   read_cell_columns(input, index_, digests);
   open_->forms = read_forms(input, city.slices, digests);
   state_the_rest(input, digests);
@@ -92,6 +102,18 @@ PvsStream::PvsStream(const std::filesystem::path& file) : open_(std::make_unique
 PvsStream::~PvsStream() = default;
 PvsStream::PvsStream(PvsStream&&) noexcept = default;
 PvsStream& PvsStream::operator=(PvsStream&&) noexcept = default;
+
+void PvsStream::read_navigation() {
+  hdf5::prepare_library();
+  City city;
+  read_navigation_columns(open_->input, city.navigation);
+  open_->input.refuse(find_place_defect(city));
+  index_.navigation = std::move(city.navigation);
+}
+
+uint64_t PvsStream::kept_bytes() const {
+  return open_->cache.bytes();
+}
 
 PvsRow PvsStream::read_row(uint32_t row) const {
   hdf5::prepare_library();  // its settings are a thread's own

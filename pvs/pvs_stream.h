@@ -17,7 +17,7 @@
 
 namespace veduta {
 
-/// All of a file but geometry and entries of rows: what grows with objects and cells only.
+/// All of a file but geometry and entries of rows.
 struct PvsIndex {
   PvsHeader header;
   std::string crs;
@@ -35,7 +35,7 @@ struct PvsIndex {
   std::vector<uint32_t> cell_worker;  ///< [C] number in `workers` or no_worker; empty: the file does not say
   std::vector<std::string> workers;   ///< names of those who baked
   std::vector<uint64_t> row_begin;    ///< [R+1]
-  Navigation navigation;
+  Navigation navigation;              ///< after PvsStream::read_navigation()
   std::optional<Verification> verification;
 
   /// As PvsFile::find_cell: the lowest cell that holds the point, or -1. Constant time.
@@ -48,19 +48,29 @@ struct PvsIndex {
 /// An open file. Opening reads and checks the index, digests included; rows and geometry are checked as they
 /// are read: the checksum of every chunk, every number in range, and triangles against the bounds of their
 /// object. HDF5 is not safe with threads: a process uses all of its streams and files from one thread at a
-/// time. Some MiB of unpacked chunks are kept, so that neighbouring rows and objects are cheap to read one
-/// after the other. Their index has a checksum too. What only read_pvs notices, which compares the
-/// digests of rows and geometry: two chunks of one dataset, packed to the same number of bytes, that changed
-/// places; and what was changed on purpose.
+/// time. Unpacked chunks are kept, so that neighbouring rows and objects are cheap to read one after the
+/// other; those that were not used for longest go first. Their index has a checksum too. What only read_pvs
+/// notices, which compares the digests of rows and geometry: two chunks of one dataset, packed to the same
+/// number of bytes, that changed places; and what was changed on purpose.
 class PvsStream {
  public:
+  /// \param memory_bytes  of unpacked chunks, also while they are unpacked; 1 MiB at least is taken. The
+  /// index
+  ///   is not among them.
   /// \throw Error as read_pvs.
-  explicit PvsStream(const std::filesystem::path& file);
+  explicit PvsStream(const std::filesystem::path& file, uint64_t memory_bytes = uint64_t{48} << 20);
   ~PvsStream();
   PvsStream(PvsStream&&) noexcept;
   PvsStream& operator=(PvsStream&&) noexcept;
 
   const PvsIndex& index() const { return index_; }
+
+  /// Reads and checks index().navigation, in which there are only the lattices before: it grows with the
+  /// ground and the surfaces of a city, and is most of an index. \throw Error(bad_input) when it is damaged.
+  void read_navigation();
+
+  /// Of unpacked chunks that are kept now.
+  uint64_t kept_bytes() const;
 
   /// Entries of a row (not: of a cell; see PvsIndex::cell_row), one of 0 to R-1.
   /// \throw Error(bad_input) when it is damaged, naming the dataset.

@@ -60,7 +60,8 @@ void require_same_ranges(const PvsFile& file) {
 }
 
 /// All that a stream gives, in an order that is not the file's.
-PvsFile read_by_pieces(const PvsStream& stream) {
+PvsFile read_by_pieces(PvsStream& stream) {
+  stream.read_navigation();
   const PvsIndex& index = stream.index();
   PvsFile file;
   const auto objects = static_cast<uint32_t>(index.objects.size());
@@ -112,7 +113,7 @@ Reading read_every_way(const std::filesystem::path& file) {
     reading.whole_error = error.what();
   }
   try {
-    const PvsStream stream(file);
+    PvsStream stream(file);
     reading.stream_opened = true;
     reading.streamed = read_by_pieces(stream);
     require_same_cells(*reading.streamed);

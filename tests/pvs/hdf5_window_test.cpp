@@ -1,6 +1,7 @@
 #include "pvs/hdf5_window.h"
 
 #include <gtest/gtest.h>
+#include <hdf5.h>
 
 #include <random>
 
@@ -36,7 +37,8 @@ class Hdf5Window : public testing::Test {
 
 TEST_F(Hdf5Window, ReadsAnyRows) {
   const Input input(directory_ / "a.h5");
-  ColumnWindow window(input, column::pvs_begin);
+  BlockCache cache(1 << 20);
+  ColumnWindow window(input, column::pvs_begin, cache);
   ASSERT_EQ(window.reader().rows(), rows_);
   ASSERT_EQ(window.reader().block_rows(), block_);
   std::mt19937 random(2);
@@ -51,14 +53,16 @@ TEST_F(Hdf5Window, ReadsAnyRows) {
 
 TEST_F(Hdf5Window, UnpacksABlockOnceForReadsThatFollowOneAnother) {
   const Input input(directory_ / "a.h5");
-  ColumnWindow window(input, column::pvs_begin);
+  BlockCache cache(1 << 20);
+  ColumnWindow window(input, column::pvs_begin, cache);
   for (uint64_t first = 0; first + 100 <= rows_; first += 100) expect_rows(window, first, 100);
   EXPECT_EQ(window.blocks_read(), 11u);
 }
 
 TEST_F(Hdf5Window, ComesBackToWhatItReadLately) {
   const Input input(directory_ / "a.h5");
-  ColumnWindow window(input, column::pvs_begin, 4);
+  BlockCache cache(4 * 8 * block_);
+  ColumnWindow window(input, column::pvs_begin, cache);
   for (int round = 0; round < 5; ++round)
     for (const uint64_t block : {2, 7, 3, 5}) expect_rows(window, block * block_ + 9, 5);
   EXPECT_EQ(window.blocks_read(), 4u);
@@ -67,6 +71,43 @@ TEST_F(Hdf5Window, ComesBackToWhatItReadLately) {
   EXPECT_EQ(window.blocks_read(), 5u);
   expect_rows(window, 2 * block_ + 9, 5);
   EXPECT_EQ(window.blocks_read(), 6u);
+  EXPECT_EQ(cache.bytes(), 4 * 8 * block_);
+}
+
+TEST_F(Hdf5Window, SharesItsMemoryWithOthers) {
+  const Input input(directory_ / "a.h5");
+  BlockCache cache(2 * 8 * block_);
+  ColumnWindow one(input, column::pvs_begin, cache), other(input, column::pvs_begin, cache);
+  expect_rows(one, 0, 5);
+  expect_rows(other, 0, 5);
+  expect_rows(one, 0, 5);
+  expect_rows(other, block_, 5);  // in place of the other's first: one's is younger
+  expect_rows(one, 0, 5);
+  EXPECT_EQ(one.blocks_read(), 1u);
+  expect_rows(other, 0, 5);
+  EXPECT_EQ(other.blocks_read(), 3u);
+}
+
+TEST_F(Hdf5Window, ABlockThatIsDamagedIsNotKept) {
+  {
+    const hid_t file = H5Fopen((directory_ / "a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    const hid_t data = H5Dopen2(file, "/pvs/begin", H5P_DEFAULT);
+    const std::vector<char> rubbish(1000, 'x');
+    const hsize_t second = block_;
+    ASSERT_GE(H5Dwrite_chunk(data, H5P_DEFAULT, 0, &second, rubbish.size(), rubbish.data()), 0);
+    H5Dclose(data);
+    H5Fclose(file);
+  }
+  const Input input(directory_ / "a.h5");
+  BlockCache cache(1 << 20);
+  ColumnWindow window(input, column::pvs_begin, cache);
+  expect_rows(window, 0, 5);
+  for (int again = 0; again < 2; ++again)
+    EXPECT_EQ(test::status_of([&] { window.read<uint64_t>(block_, 1); }), ExitStatus::bad_input);
+  expect_rows(window, 7, 5);
+  expect_rows(window, 2 * block_, 5);
+  EXPECT_EQ(window.blocks_read(), 2u);
+  EXPECT_EQ(cache.bytes(), 2 * 8 * block_);
 }
 
 }  // namespace

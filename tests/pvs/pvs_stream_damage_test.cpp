@@ -29,8 +29,9 @@ Found read(const std::filesystem::path& path, const std::string& bytes, const Pv
   test::write_bytes(path, bytes);
   bool opened = false;
   try {
-    const PvsStream stream(path);
+    PvsStream stream(path);
     opened = true;
+    stream.read_navigation();
     test::expect_same_index(stream.index(), written);
     for (size_t row = written.row_begin.size() - 1; row-- > 0;)
       test::expect_same_row(stream, written, static_cast<uint32_t>(row));

@@ -9,6 +9,7 @@
 #include <random>
 #include <set>
 
+#include "pvs/pvs_layout.h"
 #include "tests/pvs/small_verification.h"
 #include "tests/pvs/stream_compare.h"
 
@@ -65,7 +66,8 @@ CellSource random_rows(uint32_t objects) {
 }
 
 void expect_same_file(const std::filesystem::path& path, size_t objects_a_page) {
-  const PvsStream stream(path);
+  PvsStream stream(path);
+  stream.read_navigation();
   const PvsFile file = read_pvs(path);
   test::expect_same_index(stream.index(), file);
   for (uint32_t row = 0; row + 1 < file.row_begin.size(); ++row) test::expect_same_row(stream, file, row);
@@ -122,6 +124,45 @@ TEST(PvsStream, OfFilesOfManyChunksIsWhatIsReadWhole) {
     }
     test::expect_same_objects(stream, file, 0, 1500);
   }
+}
+
+TEST(PvsStream, KeepsWithinItsMemory) {
+  TemporaryDirectory directory;
+  write_pvs(directory / "a.h5", random_city(1500, 900, false, 5), test::small_header(), random_rows(1500));
+  const PvsFile file = read_pvs(directory / "a.h5");
+  uint64_t most = 0;
+  for (const uint64_t budget : {uint64_t{0}, uint64_t{1} << 20, uint64_t{5} << 18, uint64_t{1} << 30}) {
+    SCOPED_TRACE(budget);
+    const PvsStream stream(directory / "a.h5", budget);
+    most = 0;
+    const auto look = [&] {
+      ASSERT_LE(stream.kept_bytes(), std::max(budget, uint64_t{chunk_bytes}));
+      most = std::max(most, stream.kept_bytes());
+    };
+    for (uint32_t row = 0; row + 1 < file.row_begin.size(); row += 7) {
+      test::expect_same_row(stream, file, row);
+      look();
+    }
+    for (uint32_t object = 0; object < 1500; object += 50) {
+      test::expect_same_objects(stream, file, object, object + 3);
+      look();
+    }
+  }
+  EXPECT_GT(most, uint64_t{7} << 18) << "of the last budget; there is no more than the others have room for";
+}
+
+TEST(PvsStream, ReadsTheNavigationWhenItIsAskedFor) {
+  TemporaryDirectory directory;
+  const City city = test::small_city();
+  write_pvs(directory / "a.h5", city, test::small_header(), test::small_row);
+  PvsStream stream(directory / "a.h5");
+  const Navigation& navigation = stream.index().navigation;
+  EXPECT_TRUE(navigation.free.states.empty() && navigation.surfaces.states.empty());
+  EXPECT_EQ(navigation.ground.nx, 0u);
+  stream.read_navigation();
+  EXPECT_EQ(navigation.free, city.navigation.free);
+  EXPECT_EQ(navigation.surfaces, city.navigation.surfaces);
+  EXPECT_EQ(navigation.ground.nx, city.navigation.ground.nx);
 }
 
 TEST(PvsStream, KeepsOnlyVerticesThatAreUsed) {

@@ -5,7 +5,7 @@ namespace {
 
 class FileSource : public CitySource {
  public:
-  explicit FileSource(const std::filesystem::path& file) : stream_(file) {}
+  explicit FileSource(const std::filesystem::path& file) : stream_(file) { stream_.read_navigation(); }
   const PvsIndex& index() const override { return stream_.index(); }
   PvsRow read_row(uint32_t row) const override { return stream_.read_row(row); }
   City read_objects(uint32_t first, uint32_t last) const override {
