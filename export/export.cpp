@@ -16,7 +16,7 @@
 namespace veduta {
 namespace {
 
-constexpr std::array<std::string_view, 4> extensions{".obj", ".gltf", ".glb", ".jsonl"};
+constexpr std::array<std::string_view, 5> extensions{".obj", ".gltf", ".glb", ".svg", ".jsonl"};
 
 Error usage(const std::string& what) {
   return Error(ExitStatus::usage, what);
@@ -25,6 +25,7 @@ Error usage(const std::string& what) {
 Exported write_as(const std::string& extension, const PvsStream& stream, std::optional<uint32_t> cell,
                   const std::filesystem::path& out, const std::string& materials) {
   if (extension == ".jsonl") return write_json_lines(stream, cell, out);
+  if (extension == ".svg") return write_plan(stream, *cell, out);
   if (extension == ".obj") return write_obj(stream, *cell, out, materials);
   return write_gltf(stream, *cell, out, extension == ".glb" ? GltfForm::binary : GltfForm::text);
 }
@@ -39,7 +40,7 @@ void check_exportable(const std::filesystem::path& out, bool one_cell) {
   const std::string extension = extension_of(out);
   if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
     throw usage(out.string() +
-                ": cannot tell the format from the name; end it in .obj, .gltf, .glb or .jsonl");
+                ": cannot tell the format from the name; end it in .obj, .gltf, .glb, .svg or .jsonl");
   if (!one_cell && extension != ".jsonl")
     throw usage(out.string() + ": shows one cell; name it with --cell or --at");
 }

@@ -1,5 +1,5 @@
-// What a result says, for programs that do not read it: one cell's visible geometry as OBJ or glTF,
-// rows as JSON lines (docs/exporting.md). Coordinates are metres from the file's origin, so that
+// What a result says, for programs that do not read it: one cell's visible geometry as OBJ or glTF, its plan
+// as SVG, rows as JSON lines (docs/exporting.md). Coordinates are metres from the file's origin, so that
 // float32 is enough for who reads them; where that origin is, and in which CRS, each file says.
 //
 // Files are written whole or not at all. Of the city, memory holds the index, one object at a time and, for
@@ -21,7 +21,7 @@ struct Exported {
   uint64_t bytes = 0;
 };
 
-/// By the extension of `out`, small or capital letters: .obj, .gltf, .glb of a cell; .jsonl of a cell,
+/// By the extension of `out`, small or capital letters: .obj, .gltf, .glb, .svg of a cell; .jsonl of a cell,
 /// or of all. \throw Error(usage) for another extension, for no cell where one is needed, and for geometry
 /// that the format has no room for; Error(bad_input) where the file is damaged; Error(input_output).
 Exported export_result(const PvsStream& stream, std::optional<uint32_t> cell,
@@ -46,5 +46,6 @@ enum class GltfForm { text, binary };
 Exported write_gltf(const PvsStream& stream, uint32_t cell, const std::filesystem::path& out, GltfForm form);
 Exported write_json_lines(const PvsStream& stream, std::optional<uint32_t> cell,
                           const std::filesystem::path& out);
+Exported write_plan(const PvsStream& stream, uint32_t cell, const std::filesystem::path& out);
 
 }  // namespace veduta

@@ -39,13 +39,13 @@ int run_export(const Options& options, Verbosity verbosity) {
 }  // namespace
 
 void add_export(CLI::App& app, CommandLine& line) {
-  auto* const command =
-      app.add_subcommand("export", "Write what a cell sees as OBJ, glTF, or rows as JSON lines");
+  auto* const command = app.add_subcommand(
+      "export", "Write what a cell sees as OBJ, glTF or a plan (SVG), or rows as JSON lines");
   auto options = std::make_shared<Options>();
   command->add_option("FILE", options->file, "A city.pvs.h5")->required();
   command
       ->add_option("-o,--out", options->out,
-                   "What to write: .obj, .gltf, .glb of a cell; .jsonl of a cell or all")
+                   "What to write: .obj, .gltf, .glb, .svg of a cell; .jsonl of a cell or all")
       ->required();
   auto* const cell = command->add_option("--cell", options->cell, "Number of the cell")
                          ->check(CLI::Range(uint64_t{0}, uint64_t{1} << 62));

@@ -23,7 +23,7 @@ TEST(Export, RefusesWhatItCannotWrite) {
   EXPECT_EQ(status_of([] { check_exportable("a.blend", true); }, &message), ExitStatus::usage);
   EXPECT_NE(message.find(".jsonl"), std::string::npos);
   EXPECT_EQ(status_of([] { check_exportable("noextension", true); }), ExitStatus::usage);
-  for (const char* const name : {"a.obj", "a.gltf", "a.glb"}) {
+  for (const char* const name : {"a.obj", "a.gltf", "a.glb", "a.svg"}) {
     EXPECT_EQ(status_of([&] { check_exportable(name, false); }, &message), ExitStatus::usage);
     EXPECT_NE(message.find("--cell"), std::string::npos);
     EXPECT_EQ(status_of([&] { check_exportable(name, true); }), ExitStatus::done);
@@ -65,7 +65,7 @@ TEST(Export, OfDamagedFilesLeavesNothingOrTheSame) {
   test::write_toy_result(directory / "city.pvs.h5");
   const std::string whole = test::read_bytes(directory / "city.pvs.h5");
   std::map<std::string, std::string> expected;
-  for (const char* const name : {"a.obj", "a.gltf", "a.glb", "a.jsonl"}) {
+  for (const char* const name : {"a.obj", "a.gltf", "a.glb", "a.svg", "a.jsonl"}) {
     export_result(PvsStream(directory / "city.pvs.h5"), 1, directory / name);
     expected[name] = test::read_bytes(directory / name);
     std::filesystem::remove(directory / name);
