@@ -69,16 +69,19 @@ void summarize_bytes(const std::filesystem::path& path, PvsSummary& s) {
 void summarize_codings(const PvsFile& file, PvsSummary& s) {
   std::vector<uint64_t> cells_of_row(s.rows);
   for (const uint32_t row : file.cell_row) ++cells_of_row[row];
+  RowCodings sum;
   for (size_t r = 0; r < s.rows; ++r) {
     const PvsEntry* entries = file.entries.data();
     const RowCodings row =
         row_codings(entries + file.row_begin[r], entries + file.row_begin[r + 1], s.objects);
-    const double share = static_cast<double>(cells_of_row[r]) / static_cast<double>(s.cells);
-    s.three_bytes += share * static_cast<double>(row.three_bytes);
-    s.three_bytes_runs += share * static_cast<double>(row.three_bytes_runs);
-    s.bits += share * static_cast<double>(row.bits);
-    s.bits_runs += share * static_cast<double>(row.bits_runs);
+    sum.three_bytes += cells_of_row[r] * row.three_bytes;
+    sum.three_bytes_runs += cells_of_row[r] * row.three_bytes_runs;
+    sum.bits += cells_of_row[r] * row.bits;
+    sum.bits_runs += cells_of_row[r] * row.bits_runs;
   }
+  const auto mean = [&](uint64_t bytes) { return static_cast<double>(bytes) / static_cast<double>(s.cells); };
+  s.three_bytes = mean(sum.three_bytes), s.three_bytes_runs = mean(sum.three_bytes_runs);
+  s.bits = mean(sum.bits), s.bits_runs = mean(sum.bits_runs);
 }
 
 }  // namespace

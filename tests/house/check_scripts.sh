@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$1"
 bad=0
-for script in bake.sh test.sh .ci/run cmake/*.sh tests/*.sh tests/house/*.sh tests/farm/*.sh tests/library/*.sh tests/cluster/*.sh configs/slurm/*.sbatch; do
+for script in bake.sh test.sh .ci/run cmake/*.sh tests/*.sh tests/house/*.sh tests/farm/*.sh tests/library/*.sh tests/cluster/*.sh tests/python/*.sh configs/slurm/*.sbatch; do
   bash -n "$script" || bad=1
 done
 for script in bake.sh test.sh .ci/run cmake/install_packages.sh; do
