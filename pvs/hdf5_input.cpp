@@ -7,6 +7,7 @@
 
 #include <cerrno>
 
+#include "pvs/hdf5_structure.h"
 #include "scene/error.h"
 
 namespace veduta::hdf5 {
@@ -23,11 +24,14 @@ uint64_t probe(const std::filesystem::path& file) {
                 fmt::format("{}: cannot open: {}", file.string(), std::strerror(errno)));
   }
   struct stat status {};
-  const bool known = ::fstat(descriptor, &status) == 0;
+  const bool regular = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+  const auto bytes = static_cast<uint64_t>(status.st_size);
+  std::optional<std::string> defect;
+  if (regular) defect = find_structure_defect(descriptor, bytes);
   ::close(descriptor);
-  if (!known || !S_ISREG(status.st_mode))
-    throw Error(ExitStatus::bad_input, fmt::format("{}: not a regular file", file.string()));
-  return static_cast<uint64_t>(status.st_size);
+  if (!regular) throw Error(ExitStatus::bad_input, fmt::format("{}: not a regular file", file.string()));
+  if (defect) throw Error(ExitStatus::bad_input, fmt::format("{}: {}", file.string(), *defect));
+  return bytes;
 }
 
 }  // namespace

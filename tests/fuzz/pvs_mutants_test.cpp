@@ -222,6 +222,19 @@ TEST_F(PvsMutants, PackedBytesChangedUnderTheirChecksum) {
   EXPECT_GT(found.whole, found.made * 9 / 10);
 }
 
+/// Hostile: HDF5 believes it.
+TEST_F(PvsMutants, MetadataChangedUnderItsChecksum) {
+  const Found found = run(0.15, 7, false, [](const Original& original, std::string& bytes, Random& random) {
+    const Block block = original.metadata[random() % original.metadata.size()];
+    for (unsigned changes = 1 + random() % 3; changes-- > 0;) {
+      char& byte = bytes[block.at + random() % (block.length - 4)];
+      byte = static_cast<char>(random() % 2 == 0 ? byte ^ (1 << random() % 8) : static_cast<int>(random()));
+    }
+    mend_metadata(bytes, {block});
+  });
+  EXPECT_GT(found.whole, found.made / 3);
+}
+
 /// Every checksum and digest holds: another file, and a wrong one most of the time.
 TEST_F(PvsMutants, ValuesChangedUnderTheirDigests) {
   const TemporaryDirectory directory;
