@@ -70,6 +70,10 @@ TEST_F(DamagedResult, InfoSaysSo) {
   expect_answers(VEDUTA_PROGRAM " info ", " --json", 15);
 }
 
+TEST_F(DamagedResult, ExportSaysSo) {
+  expect_answers(VEDUTA_PROGRAM " export ", " --cell 2 -o " + (directory_ / "plan.svg").string(), 12);
+}
+
 TEST_F(DamagedResult, ViewerSaysSo) {
   const std::string behind =
       " --headless --frames 1 --size 64x64 --gpu software --out " + (directory_ / "frames").string();
