@@ -7,6 +7,13 @@
 
 #include "tests/export/toy_result.h"
 
+#ifdef __SANITIZE_ADDRESS__
+/// HDF5 1.10 leaks when it refuses a file. Our own leaks are still found.
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libhdf5";
+}
+#endif
+
 namespace veduta {
 namespace {
 
