@@ -59,7 +59,7 @@ void check_number(uint64_t number, uint64_t count, const char* what) {
 
 }  // namespace
 
-City::Open::Open(const std::filesystem::path& file, uint64_t) : stream(file) {
+City::Open::Open(const std::filesystem::path& file, uint64_t memory_bytes) : stream(file, memory_bytes) {
   const PvsIndex& index = stream.index();
   objects.reserve(index.objects.size());
   for (size_t i = 0; i < index.objects.size(); ++i) objects.push_back(object_of(index, i));

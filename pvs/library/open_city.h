@@ -10,7 +10,7 @@
 namespace veduta::pvs {
 
 struct [[gnu::visibility("hidden")]] City::Open {
-  explicit Open(const std::filesystem::path& file, uint64_t memory_bytes);
+  Open(const std::filesystem::path& file, uint64_t memory_bytes);
 
   PvsStream stream;
   std::vector<Object> objects;  ///< [N]

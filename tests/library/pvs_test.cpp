@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 
 #include "tests/library/sliced_city.h"
 
@@ -144,6 +145,30 @@ TEST_F(Library, DamageIsAnErrorOrChangesNothing) {
     test::write_bytes(directory_ / "cut.h5", bytes.substr(0, size));
     EXPECT_FALSE(error_of([&] { pvs::City(directory_ / "cut.h5"); }).empty()) << size;
   }
+}
+
+/// Bytes that this process has read from files so far, or -1.
+int64_t bytes_read() {
+  std::ifstream io("/proc/self/io");
+  std::string name;
+  int64_t bytes = -1;
+  io >> name >> bytes;
+  return name == "rchar:" ? bytes : -1;
+}
+
+TEST_F(Library, KeepsAsMuchAsItMay) {
+  if (bytes_read() < 0) GTEST_SKIP() << "/proc/self/io does not say what was read";
+  const veduta::City written = test::sliced_city(8000, 2, 3);
+  write_pvs(path_, written, test::small_header(), test::sliced_rows(written));
+  const auto read_again = [&](const pvs::City& city) {
+    expect_same_geometry(city.read_geometry(0, 8000), city.read_geometry(0, 8000));
+    const int64_t before = bytes_read();
+    city.read_geometry(0, 8000);
+    return bytes_read() - before;
+  };
+  const auto stored = static_cast<int64_t>(std::filesystem::file_size(path_));
+  EXPECT_LT(read_again(pvs::City(path_)), 5000) << "it was all there";
+  EXPECT_GT(read_again(pvs::City(path_, 0)), stored / 2) << "there was no room for it";
 }
 
 herr_t host_printer(hid_t, void*) {

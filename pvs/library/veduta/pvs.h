@@ -101,7 +101,8 @@ enum class CellStatus : uint8_t { baked, coarse, all_visible };
 /// where the program uses it itself. A number of an object or cell that is not there is an Error.
 class City {
  public:
-  /// \param memory_bytes room for what was read of rows and geometry, so that it need not be read again.
+  /// \param memory_bytes room for what was read of rows and geometry, so that it need not be read again; less
+  ///   than 1 MiB counts as 1 MiB.
   /// \throw Error when the file is missing, not ours, of another version or damaged.
   explicit City(const std::filesystem::path& file, uint64_t memory_bytes = uint64_t{256} << 20);
   ~City();
