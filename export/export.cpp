@@ -50,6 +50,7 @@ Exported export_result(const PvsStream& stream, std::optional<uint32_t> cell,
   check_exportable(out, cell.has_value());
   const std::string extension = extension_of(out);
   const std::filesystem::path materials = std::filesystem::path(out).replace_extension(".mtl");
+  remove_dead_temporaries(out);
   Exported exported;
   write_atomically(out, [&](const std::filesystem::path& temporary) {
     exported = write_as(extension, stream, cell, temporary, printable(materials.filename().string(), 10000));

@@ -10,6 +10,7 @@
 #include "export/plan_page.h"
 #include "export/top_mask.h"
 #include "scene/markup.h"
+#include "scene/text.h"
 #include "scene/writers/ordered_output.h"
 
 namespace veduta {
@@ -139,10 +140,11 @@ class Plan {
     page.title =
         fmt::format("Cell {} sees {} of {} objects", cell_, count(row_.size()), count(index_.objects.size()));
     const glm::vec3 size = index_.cells[cell_].upper - index_.cells[cell_].lower;
-    page.subtitle = fmt::format(
-        "{:.4g} x {:.4g} x {:.4g} m, {}; middle of the cell at {:.1f}, {:.1f}{}", size.x, size.y, size.z,
-        status_in_words(), index_.origin[0] + index_.cells[cell_].center().x,
-        index_.origin[1] + index_.cells[cell_].center().y, index_.crs.empty() ? "" : " in " + index_.crs);
+    page.subtitle =
+        fmt::format("{:.4g} x {:.4g} x {:.4g} m, {}; middle of the cell at {:.1f}, {:.1f}{}", size.x, size.y,
+                    size.z, status_in_words(), index_.origin[0] + index_.cells[cell_].center().x,
+                    index_.origin[1] + index_.cells[cell_].center().y,
+                    index_.crs.empty() ? "" : " in " + printable(index_.crs, 60));
     if (index_.crs.empty()) page.upwards = "y";
     return page;
   }

@@ -88,6 +88,11 @@ done
 "$bin/veduta" verify "$work/reference/city.pvs.h5" --cells 4 --rays 10000 --store >/dev/null 2>&1 || fail "verification, stored"
 "$bin/veduta" info "$work/reference/city.pvs.h5" | grep -q 'passed: 4 of ' || fail "info does not know of the verification"
 [[ $(digest "$work/reference") == "$reference" ]] || fail "a verification changed the content digest"
+"$bin/veduta" export "$work/reference/city.pvs.h5" -o "$work/rows.jsonl" >/dev/null || fail "export of all rows"
+"$bin/veduta" info "$work/reference/city.pvs.h5" | grep -q "^ *cells  *$(wc -l <"$work/rows.jsonl"): " || fail "rows exported are not as many as cells"
+written=$("$bin/veduta" export "$work/reference/city.pvs.h5" --cell 0 -o "$work/cell.glb" | grep -o '[0-9]* triangles') || fail "export of a cell"
+"$bin/veduta" import "$work/cell.glb" --info | grep -q "^polygons *${written% triangles}, " || fail "of $written exported, others were imported"
+echo "exported: a cell of $written, imported again; $(wc -l <"$work/rows.jsonl") rows"
 "$bin/veduta-view" "$work/reference/city.pvs.h5" --headless --gpu software --stereo side-by-side --frames 3 --size 640x180 --out "$work/on" >/dev/null
 "$bin/veduta-view" "$work/reference/city.pvs.h5" --headless --gpu software --stereo side-by-side --frames 3 --size 640x180 --out "$work/off" --pvs off >/dev/null
 for frame in "$work"/on/*.png; do cmp "$frame" "$work/off/$(basename "$frame")" || fail "a picture differs without the PVS"; done
