@@ -9,7 +9,6 @@
 // before. `memory_bytes_per_cell` is the growth of the peak over the first run that was given.
 #include <fcntl.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -22,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/in_child.h"
 #include "bench/merge_run.h"
 #include "merge/merge.h"
 
@@ -36,37 +36,6 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 
 double seconds_of(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-}
-
-/// Runs in a child that has nothing of ours in memory, which answers in one line.
-template <typename Work>
-Json in_child(const Work& work) {
-  int ends[2];
-  if (pipe(ends) != 0) throw std::runtime_error("no pipe");
-  const pid_t child = fork();
-  if (child < 0) throw std::runtime_error("no child process");
-  if (child == 0) {
-    Json answer;
-    try {
-      answer = work();
-    } catch (const std::exception& error) {
-      answer = {{"error", error.what()}};
-    }
-    const std::string text = answer.dump();
-    _exit(write(ends[1], text.data(), text.size()) == static_cast<ssize_t>(text.size()) ? 0 : 1);
-  }
-  close(ends[1]);
-  std::string text;
-  char block[4096];
-  for (ssize_t count = 0; (count = read(ends[0], block, sizeof block)) > 0;)
-    text.append(block, static_cast<size_t>(count));
-  close(ends[0]);
-  int status = 0;
-  waitpid(child, &status, 0);
-  if (text.empty()) throw std::runtime_error("a process died with status " + std::to_string(status));
-  Json answer = Json::parse(text);
-  if (answer.contains("error")) throw std::runtime_error(answer["error"].get<std::string>());
-  return answer;
 }
 
 /// Of all shards into one file, synced. \return seconds.
@@ -137,22 +106,6 @@ Json measure_run(const RunPaths& run, const std::filesystem::path& scratch, int 
           {"peak_memory_mb", static_cast<double>(peak) / 1e6},
           {"digest", best["digest"]}};
 }
-
-/// A directory that is gone in the end.
-struct Scratch {
-  std::filesystem::path path;
-  explicit Scratch(const std::filesystem::path& where) {
-    std::string name = (where / "veduta-bench-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error(where.string() + ": no directory can be made there");
-    path = name;
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-};
 
 Json measure_asked(const Json& asked, const std::filesystem::path& where, int repeat) {
   const Scratch scratch(where);

@@ -1,7 +1,5 @@
 #include "pvs/hdf5_window.h"
 
-#include <algorithm>
-
 namespace veduta::hdf5 {
 
 const std::byte* ColumnWindow::block(uint64_t number) {
@@ -16,14 +14,9 @@ const std::byte* ColumnWindow::block(uint64_t number) {
 
 void ColumnWindow::read(uint64_t first, uint64_t count, void* out) {
   auto* to = static_cast<std::byte*>(out);
-  const uint64_t end = first + count, block_rows = reader_.block_rows();
-  const size_t row_bytes = reader_.row_bytes();
-  while (first < end) {
-    const uint64_t number = first / block_rows, skipped = first % block_rows;
-    const uint64_t rows = std::min(end - first, block_rows - skipped);
-    to = std::copy_n(block(number) + skipped * row_bytes, rows * row_bytes, to);
-    first += rows;
-  }
+  visit(first, count, [&](const std::byte* rows, uint64_t here) {
+    to = std::copy_n(rows, here * reader_.row_bytes(), to);
+  });
 }
 
 }  // namespace veduta::hdf5

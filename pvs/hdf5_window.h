@@ -1,6 +1,8 @@
 // A dataset that is read here and there: the blocks that were read last stay unpacked.
 #pragma once
 
+#include <algorithm>
+
 #include "pvs/block_cache.h"
 #include "pvs/hdf5_input.h"
 
@@ -19,6 +21,17 @@ class ColumnWindow {
   /// Copies rows [first, first + count), which must be there. A block that the cache still has is not read
   /// again. \throw Error(bad_input) when a chunk is damaged.
   void read(uint64_t first, uint64_t count, void* out);
+
+  /// Hands them out where they lie, a block at a time: `visit(rows, count)`. They stay until the next read.
+  template <typename Visit>
+  void visit(uint64_t first, uint64_t count, Visit visit) {
+    const uint64_t end = first + count, block_rows = reader_.block_rows();
+    while (first < end) {
+      const uint64_t skipped = first % block_rows, here = std::min(end - first, block_rows - skipped);
+      visit(block(first / block_rows) + skipped * reader_.row_bytes(), here);
+      first += here;
+    }
+  }
 
   template <typename T>
   std::vector<T> read(uint64_t first, uint64_t count) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 #include "pvs/cell_columns.h"
@@ -116,21 +117,33 @@ uint64_t PvsStream::kept_bytes() const {
 }
 
 PvsRow PvsStream::read_row(uint32_t row) const {
+  PvsRow out;
+  read_row(row, out);
+  return out;
+}
+
+void PvsStream::read_row(uint32_t row, PvsRow& out) const {
   hdf5::prepare_library();  // its settings are a thread's own
   const uint64_t first = index_.row_begin[row], count = index_.row_begin[row + 1] - first;
   if (count > index_.objects.size())
     open_->input.fail(column::pvs_begin.path, fmt::format("row {} lists more than there are objects", row));
-  const auto steps = open_->entry_step.read<uint32_t>(first, count);
-  const auto forms = open_->entry_form.read<uint16_t>(first, count);
-  PvsRow entries(count);
-  for (size_t i = 0; i < count; ++i) entries[i].object = steps[i];
-  if (const auto defect = sum_steps(entries.data(), entries.data() + count, index_.objects.size()))
+  out.resize(count);
+  PvsEntry* entry = out.data();
+  open_->entry_step.visit(first, count, [&](const std::byte* steps, uint64_t here) {
+    for (uint64_t i = 0; i < here; ++i, ++entry) std::memcpy(&entry->object, steps + 4 * i, 4);
+  });
+  if (const auto defect = sum_steps(out.data(), out.data() + count, index_.objects.size()))
     open_->input.fail(column::pvs_object_step.path, fmt::format("row {}: {}", row, *defect));
-  for (size_t i = 0; i < count; ++i)
-    if (!open_->forms.set(forms[i], entries[i]))
-      open_->input.fail(column::pvs_form.path,
-                        fmt::format("row {}: no such form of object {}", row, entries[i].object));
-  return entries;
+  entry = out.data();
+  open_->entry_form.visit(first, count, [&](const std::byte* forms, uint64_t here) {
+    for (uint64_t i = 0; i < here; ++i, ++entry) {
+      uint16_t form = 0;
+      std::memcpy(&form, forms + 2 * i, 2);
+      if (!open_->forms.set(form, *entry))
+        open_->input.fail(column::pvs_form.path,
+                          fmt::format("row {}: no such form of object {}", row, entry->object));
+    }
+  });
 }
 
 City PvsStream::read_objects(uint32_t first, uint32_t last) const {

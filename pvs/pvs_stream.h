@@ -75,6 +75,8 @@ class PvsStream {
   /// Entries of a row (not: of a cell; see PvsIndex::cell_row), one of 0 to R-1.
   /// \throw Error(bad_input) when it is damaged, naming the dataset.
   PvsRow read_row(uint32_t row) const;
+  /// The same in the place of `out`, whose room is used again. From what is kept, in a microsecond or two.
+  void read_row(uint32_t row, PvsRow& out) const;
 
   /// Objects [first, last), last <= N, as a city of their own: scene (vertices that are used, in the order of
   /// the file, triangles, material, objects with triangle numbers from 0; no parts), slices and

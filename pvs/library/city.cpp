@@ -38,12 +38,11 @@ Object object_of(const PvsIndex& index, size_t number) {
           {slices.x, slices.y, slices.z}};
 }
 
-Row to_row(const PvsRow& row) {
-  Row out;
+void copy_row(const PvsRow& row, Row& out) {
+  out.clear();
   out.reserve(row.size());
   for (const PvsEntry& entry : row)
     out.push_back({entry.object, entry.index.x, entry.index.y, entry.index.z});
-  return out;
 }
 
 PvsRow from_row(const Row& row) {
@@ -126,13 +125,16 @@ std::optional<uint32_t> City::find_cell(const Point& point) const {
 
 void City::read_row(uint32_t cell, Row& out) const {
   check_number(cell, cell_count(), "cell");
-  call([&] { out = to_row(open_->stream.read_row(open_->stream.index().cell_row[cell])); });
+  call([&] {
+    open_->stream.read_row(open_->stream.index().cell_row[cell], open_->row);
+    copy_row(open_->row, out);
+  });
 }
 
 void unite(const Row& left, const Row& right, Row& out) {
   PvsRow united;
   unite_rows(from_row(left), from_row(right), united);
-  out = to_row(united);
+  copy_row(united, out);
 }
 
 }  // namespace veduta::pvs

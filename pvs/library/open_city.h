@@ -14,6 +14,7 @@ struct [[gnu::visibility("hidden")]] City::Open {
 
   PvsStream stream;
   std::vector<Object> objects;  ///< [N]
+  PvsRow row;                   ///< that was read last
 };
 
 }  // namespace veduta::pvs

@@ -56,6 +56,9 @@ inline void expect_same_row(const PvsStream& stream, const PvsFile& file, uint32
   const PvsRow whole(file.entries.begin() + static_cast<ptrdiff_t>(file.row_begin[row]),
                      file.entries.begin() + static_cast<ptrdiff_t>(file.row_begin[row + 1]));
   ASSERT_EQ(stream.read_row(row), whole) << "row " << row;
+  PvsRow again(row % 7, {row, completely_visible});  // of whatever was there, nothing stays
+  stream.read_row(row, again);
+  ASSERT_EQ(again, whole) << "row " << row;
 }
 
 /// Objects [first, last): corner by corner, since vertices may be numbered in another way.
