@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# install_test.sh BUILD_DIRECTORY TOY_FILE CMAKE GENERATOR COMPILER: installs the library to a prefix of its own, builds the
-# example outside of the tree with find_package, and runs it.
+# install_test.sh BUILD_DIRECTORY TOY_FILE CMAKE GENERATOR COMPILER LIBRARY_MD: installs the library to a prefix of its own,
+# builds the example outside of the tree with find_package, and runs it; compiles the frame of docs/library.md.
 set -euo pipefail
-build=$1 toy_file=$2 cmake=$3 generator=$4 compiler=$5
+build=$1 toy_file=$2 cmake=$3 generator=$4 compiler=$5 document=$6
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 fail() { echo "install_test.sh: $*" >&2; exit 1; }
@@ -33,6 +33,15 @@ ldd "$library" >"$work/needed"
 if grep -iE 'not found|libGL|libEGL|libOpenGL|epoxy|libmpi|libgdal|libembree|libtbb' "$work/needed"; then
   fail "the library needs what it should not"
 fi
+
+{
+  echo '#include <veduta/pvs.h>'
+  echo 'void frame(const veduta::pvs::Point& left_eye, const veduta::pvs::Point& right_eye) {'
+  sed -n '/^```cpp$/,/^```$/p' "$document" | grep -v '^```'
+  echo '}'
+} >"$work/frame.cpp"
+grep -q 'City city' "$work/frame.cpp" || fail "$document shows no frame"
+"$compiler" -std=c++20 -fsyntax-only -Wall -Wextra -Werror -I"$work/prefix/include" "$work/frame.cpp" || fail "the frame of $document does not compile"
 
 cp -r "$work/prefix/share/veduta/examples/visible_buildings" "$work/example"
 "$cmake" -S "$work/example" -B "$work/build" -G "$generator" -DCMAKE_CXX_COMPILER="$compiler" \
