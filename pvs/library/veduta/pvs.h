@@ -11,8 +11,8 @@
 //     for (const auto& entry : row) geometry.add_ranges(entry, ranges);            // glMultiDrawElements
 //   }
 //
-// Lengths are metres, z is up, and points are relative to City::origin(). What is read is checked before it is
-// believed: damage is an Error, not a crash and not another answer (docs/library.md has the small print).
+// Lengths are metres, z is up, and points are relative to City::origin(). What is read is checked before it
+// is believed: damage is an Error, not a crash and not another answer (docs/library.md has the small print).
 #pragma once
 
 #include <array>
