@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "pvs/hdf5_input.h"
 #include "pvs/pvs_layout.h"
 #include "tests/pvs/small_verification.h"
 
@@ -114,6 +115,33 @@ TEST_F(FormatDoc, NamesTheVersion) {
             std::string::npos);
   for (uint32_t v = 1; v <= pvs_version; ++v)
     EXPECT_NE(text_.find("\n| " + std::to_string(v) + " | "), std::string::npos) << v;
+}
+
+/// The two rows of its example, with the numbers that it gives.
+TEST_F(FormatDoc, ExampleOfRowsIsWhatTheWriterWrites) {
+  EXPECT_NE(text_.find("| `object_step` | 3 | 2 | 10 | 5 | 10 |"), std::string::npos);
+  EXPECT_NE(text_.find("| `form` | 0 | 0 | 0 | 1 | 0 |"), std::string::npos);
+  EXPECT_NE(text_.find("`form_index` is (0, 0, 1), (0, 0, 2), (0, 0, 1), (2, 0, 0)"), std::string::npos);
+  test::TemporaryDirectory directory;
+  const PvsRow rows[2] = {{{3, {0, 0, 1}}, {5, {0, 0, 2}}, {15, {2, 0, 0}}},
+                          {{5, {0, 0, 1}}, {15, {2, 0, 0}}}};
+  write_pvs(directory / "a.h5", test::small_city(19, 2), test::small_header(), [&](uint32_t c) {
+    return BakedCell{CellStatus::baked, 0, rows[c]};
+  });
+  const hdf5::Input input(directory / "a.h5");
+  const auto expect = [&]<typename T>(const Column& column, const std::vector<T>& expected) {
+    std::vector<T> found;
+    hdf5::ColumnReader(input, column).read_into(found);
+    EXPECT_EQ(found, expected) << column.path;
+  };
+  expect(column::pvs_begin, std::vector<uint64_t>{0, 3, 5});
+  expect(column::pvs_object_step, std::vector<uint32_t>{3, 2, 10, 5, 10});
+  expect(column::pvs_form, std::vector<uint16_t>{0, 0, 0, 1, 0});
+  expect(column::pvs_form_begin,
+         std::vector<uint64_t>{0, 0, 0, 0, 1, 1, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 4, 4, 4, 4, 4});
+  std::vector<VisibilityIndex> forms;
+  hdf5::ColumnReader(input, column::pvs_form_index).read_into(forms);
+  EXPECT_EQ(forms, (std::vector<VisibilityIndex>{{0, 0, 1}, {0, 0, 2}, {0, 0, 1}, {2, 0, 0}}));
 }
 
 TEST_F(FormatDoc, LeadsNowhereThatIsNot) {
