@@ -33,6 +33,10 @@ class ColumnWindow {
     }
   }
 
+  /// Are all of these rows kept? Then they begin to come closer to the processor, and HDF5 is not called to
+  /// read them.
+  bool fetch_kept(uint64_t first, uint64_t count) const;
+
   template <typename T>
   std::vector<T> read(uint64_t first, uint64_t count) {
     static_assert(std::is_trivially_copyable_v<T>);

@@ -123,7 +123,6 @@ PvsRow PvsStream::read_row(uint32_t row) const {
 }
 
 void PvsStream::read_row(uint32_t row, PvsRow& out) const {
-  hdf5::prepare_library();  // its settings are a thread's own
   const uint64_t first = index_.row_begin[row], count = index_.row_begin[row + 1] - first;
   if (count > index_.objects.size())
     open_->input.fail(column::pvs_begin.path, fmt::format("row {} lists more than there are objects", row));
@@ -144,6 +143,12 @@ void PvsStream::read_row(uint32_t row, PvsRow& out) const {
                           fmt::format("row {}: no such form of object {}", row, entry->object));
     }
   });
+}
+
+bool PvsStream::keeps_row(uint32_t row) const {
+  const uint64_t first = index_.row_begin[row], count = index_.row_begin[row + 1] - first;
+  const bool steps = open_->entry_step.fetch_kept(first, count);
+  return open_->entry_form.fetch_kept(first, count) && steps;
 }
 
 City PvsStream::read_objects(uint32_t first, uint32_t last) const {

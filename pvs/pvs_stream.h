@@ -78,6 +78,9 @@ class PvsStream {
   /// The same in the place of `out`, whose room is used again. From what is kept, in a microsecond or two.
   void read_row(uint32_t row, PvsRow& out) const;
 
+  /// Is the row kept? Then reading it does not call HDF5, and it begins to come closer to the processor.
+  bool keeps_row(uint32_t row) const;
+
   /// Objects [first, last), last <= N, as a city of their own: scene (vertices that are used, in the order of
   /// the file, triangles, material, objects with triangle numbers from 0; no parts), slices and
   /// triangle_slices. No cells, no navigation. Memory and time are those of these objects.

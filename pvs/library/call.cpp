@@ -31,6 +31,10 @@ class HostSettings {
 
 void call(const std::function<void()>& read) {
   const HostSettings settings;
+  call_without_hdf5(read);
+}
+
+void call_without_hdf5(const std::function<void()>& read) {
   try {
     read();
   } catch (const veduta::Error& error) {

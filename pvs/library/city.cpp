@@ -39,10 +39,9 @@ Object object_of(const PvsIndex& index, size_t number) {
 }
 
 void copy_row(const PvsRow& row, Row& out) {
-  out.clear();
-  out.reserve(row.size());
-  for (const PvsEntry& entry : row)
-    out.push_back({entry.object, entry.index.x, entry.index.y, entry.index.z});
+  out.resize(row.size());
+  for (size_t i = 0; i < row.size(); ++i)
+    out[i] = {row[i].object, row[i].index.x, row[i].index.y, row[i].index.z};
 }
 
 PvsRow from_row(const Row& row) {
@@ -125,10 +124,13 @@ std::optional<uint32_t> City::find_cell(const Point& point) const {
 
 void City::read_row(uint32_t cell, Row& out) const {
   check_number(cell, cell_count(), "cell");
-  call([&] {
-    open_->stream.read_row(open_->stream.index().cell_row[cell], open_->row);
-    copy_row(open_->row, out);
-  });
+  const uint32_t row = open_->stream.index().cell_row[cell];
+  const auto read = [&] { open_->stream.read_row(row, open_->row); };
+  if (open_->stream.keeps_row(row))
+    call_without_hdf5(read);
+  else
+    call(read);
+  copy_row(open_->row, out);
 }
 
 void unite(const Row& left, const Row& right, Row& out) {

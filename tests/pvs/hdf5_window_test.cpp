@@ -74,6 +74,20 @@ TEST_F(Hdf5Window, ComesBackToWhatItReadLately) {
   EXPECT_EQ(cache.bytes(), 4 * 8 * block_);
 }
 
+TEST_F(Hdf5Window, KnowsWhichRowsItKeeps) {
+  const Input input(directory_ / "a.h5");
+  BlockCache cache(3 * 8 * block_);
+  ColumnWindow window(input, column::pvs_begin, cache);
+  EXPECT_FALSE(window.fetch_kept(0, 1));
+  EXPECT_TRUE(window.fetch_kept(0, 0));
+  expect_rows(window, block_ - 1, 2);
+  EXPECT_TRUE(window.fetch_kept(0, 2 * block_));
+  EXPECT_FALSE(window.fetch_kept(block_, block_ + 1)) << "the last of them is of another block";
+  expect_rows(window, rows_ - 1, 1);
+  EXPECT_TRUE(window.fetch_kept(rows_ - 77, 77));
+  EXPECT_EQ(window.blocks_read(), 3u);
+}
+
 TEST_F(Hdf5Window, SharesItsMemoryWithOthers) {
   const Input input(directory_ / "a.h5");
   BlockCache cache(2 * 8 * block_);

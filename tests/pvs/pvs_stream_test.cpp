@@ -151,6 +151,20 @@ TEST(PvsStream, KeepsWithinItsMemory) {
   EXPECT_GT(most, uint64_t{7} << 18) << "of the last budget; there is no more than the others have room for";
 }
 
+TEST(PvsStream, KnowsWhichRowsItKeeps) {
+  TemporaryDirectory directory;
+  write_pvs(directory / "a.h5", random_city(1500, 900, true, 5), test::small_header(), random_rows(1500));
+  const PvsStream stream(directory / "a.h5");
+  const auto last = static_cast<uint32_t>(stream.index().row_begin.size() - 2);
+  EXPECT_FALSE(stream.keeps_row(0));
+  stream.read_row(0);
+  EXPECT_TRUE(stream.keeps_row(0));
+  EXPECT_TRUE(stream.keeps_row(1)) << "of the same chunks";
+  EXPECT_FALSE(stream.keeps_row(last)) << "of others";
+  stream.read_row(last);
+  EXPECT_TRUE(stream.keeps_row(last));
+}
+
 TEST(PvsStream, ReadsTheNavigationWhenItIsAskedFor) {
   TemporaryDirectory directory;
   const City city = test::small_city();
