@@ -7,7 +7,7 @@ cores=$(nproc)
 
 # Parts that read untrusted bytes or do arithmetic on raw buffers run under the sanitizers too; GL and MPI libraries
 # have leaks of their own.
-sanitized=(scene pvs library merge verify sweep export)
+sanitized=(scene pvs library fuzz merge verify sweep export)
 
 step() { echo "== $(date +%T) $*"; }
 fail() { echo "test.sh: $*" >&2; exit 1; }

@@ -5,6 +5,7 @@
 #include "pvs/city_columns.h"
 #include "pvs/pvs_check.h"
 #include "scene/error.h"
+#include "scene/text.h"
 
 namespace veduta {
 
@@ -147,7 +148,7 @@ RootAttributes read_root(const Input& input, const std::string& format) {
   root.format = input.text("/", "format");
   if (root.format != format)
     input.fail("/@format", fmt::format("\"{}\", this program reads \"{}\" here; was the right file given?",
-                                       root.format, format));
+                                       printable(root.format), format));
   root.version = input.number("/", "version");
   const uint32_t ours = format == pvs_format ? pvs_version : city_version;
   if (root.version != ours)

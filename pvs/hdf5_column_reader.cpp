@@ -14,7 +14,7 @@ namespace {
 // more than the file could is refused before anything is allocated.
 constexpr uint64_t deflate_ratio_limit = 1100;
 constexpr uint64_t text_bytes_limit = 1u << 20;
-constexpr uint64_t chunk_bytes_limit = 256u << 20;
+constexpr uint64_t chunk_bytes_limit = 16u << 20;  // a hostile file may claim as much for every few KiB of it
 constexpr const char* index_damage =
     "damaged: its chunk index does not hold; get the file again, or bake again";
 

@@ -4,11 +4,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "pvs/hdf5_messages.h"
+#include "pvs/pvs_layout.h"
 
 namespace veduta::hdf5 {
 
@@ -18,6 +21,14 @@ constexpr int deepest = 4;             // /verification/cells/rays
 constexpr size_t most_objects = 1000;  // there are about 60
 constexpr size_t most_blocks = 1000;   // of one header
 constexpr uint64_t longest_block = 1u << 20;
+
+/// A dataset that files may have, or a group on the way to one.
+bool is_ours(const std::string& place) {
+  return std::any_of(std::begin(column::all), std::end(column::all), [&](const Column* column) {
+    const std::string_view path = column->path;
+    return path == place || path.starts_with(place + "/");
+  });
+}
 
 /// One file on its way to be checked.
 class Walk {
@@ -96,7 +107,7 @@ class Walk {
     for (const auto& [name, address] : links) {
       const std::string before = place_;
       place_ += (depth == 0 ? "" : "/") + name;
-      object(address, depth + 1);
+      if (is_ours(place_)) object(address, depth + 1);  // HDF5 is not asked for any other
       place_ = before;
     }
   }

@@ -9,7 +9,7 @@
 
 namespace veduta::hdf5 {
 
-/// Walks every object header from the root on, links inside the file only: kinds and lengths of its messages,
+/// Walks the header of every object that this program may ask for: kinds and lengths of its messages,
 /// types, extents, layouts and filters, and that objects are a tree. Few kinds are let through, so that most
 /// of HDF5 never runs: no dense storage but for attributes of the root, nothing shared, no committed types.
 /// Values, chunk indices and checksums are left to who reads them. Takes about as long as opening the file.

@@ -11,7 +11,7 @@ namespace {
 
 /// Floats bit by bit: the ground has NaN where there is none.
 bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), 4 * a.size()) == 0;
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), 4 * a.size()) == 0);
 }
 
 bool same_ground(const HeightField& a, const HeightField& b) {

@@ -1,5 +1,5 @@
-// Files that HDF5 1.10 crashed or hung on, made again: metadata that no writer makes, with checksums that
-// hold.
+// Files that went through, or that HDF5 1.10 crashed or hung on, made again: what no writer makes, with
+// checksums and digests that hold.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -7,6 +7,7 @@
 #include "tests/fuzz/corpus_cities.h"
 #include "tests/fuzz/hdf5_blocks.h"
 #include "tests/fuzz/memory_file.h"
+#include "tests/fuzz/pieces.h"
 #include "tests/fuzz/read_every_way.h"
 
 namespace veduta::test {
@@ -68,6 +69,29 @@ TEST(HostileMetadata, AGroupThatHoldsItself) {
                                "scene",
                                6, little_endian(root), "objects that are no tree"),
             1);
+}
+
+/// What somebody put into the file beside ours is not looked at, nor named in messages.
+TEST(HostileMetadata, NamesThatAreNotOurs) {
+  EXPECT_EQ(refused_everywhere("\x04"
+                               "free",
+                               1, "a\n\x1b!", "/navigation/free: missing"),
+            1);
+}
+
+/// Viewers cull by them.
+TEST(HostileValues, BoundsThatAreNotThoseOfTheTriangles) {
+  const MemoryFile original(small_file());
+  Pieces pieces = take_apart(original.path());
+  for (Piece& piece : pieces.pieces)
+    if (piece.column == &column::object_bounds) piece.bytes[3] ^= 1;
+  const MemoryFile changed{std::string()};
+  put_together(changed.path(), pieces);
+  const Reading reading = read_every_way(changed.path());
+  EXPECT_NE(reading.whole_error.find("/scene/objects/bounds: object 0"), std::string::npos)
+      << reading.whole_error;
+  EXPECT_NE(reading.stream_error.find("object 0 lies outside of its bounds"), std::string::npos)
+      << reading.stream_error;
 }
 
 /// Longer than a header's message can be: HDF5 stores the root's attributes apart.

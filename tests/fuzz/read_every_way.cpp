@@ -9,6 +9,7 @@
 #include "pvs/index_ranges.h"
 #include "pvs/pvs_stream.h"
 #include "scene/error.h"
+#include "tests/fuzz/read_by_library.h"
 
 namespace veduta::test {
 
@@ -121,7 +122,10 @@ Reading read_every_way(const std::filesystem::path& file) {
     require_refusal(error, file);
     reading.stream_error = error.what();
   }
+  reading.library_error = read_by_library(file, reading.whole ? &*reading.whole : nullptr);
   if (!reading.whole) return reading;
+  if (!reading.library_error.empty())
+    throw BrokenPromise("only the library refuses: " + reading.library_error);
   if (!reading.streamed) throw BrokenPromise("only the stream refuses: " + reading.stream_error);
   if (const std::string where = difference(*reading.whole, *reading.streamed); !where.empty())
     throw BrokenPromise("the stream read something else: " + where);

@@ -20,13 +20,13 @@ class BrokenPromise : public std::runtime_error {
 struct Reading {
   std::optional<PvsFile> whole;     ///< by read_pvs
   std::optional<PvsFile> streamed;  ///< by PvsStream, piece by piece: no parts, vertices as they are used
-  std::string whole_error, stream_error;
+  std::string whole_error, stream_error, library_error;
   bool stream_opened = false;  ///< its index was believed
 };
 
-/// Reads all of it. Where read_pvs reads a file, PvsStream does and gives the same; the converse need not
-/// hold, since a stream compares no digests of rows and geometry.
-/// \throw BrokenPromise; what else comes out (std::bad_alloc, say) no reader may throw.
+/// Reads all of it. Where read_pvs reads a file, PvsStream and the library do and give the same; the converse
+/// need not hold, since a stream compares no digests of rows and geometry. \throw BrokenPromise; what else
+/// comes out (std::bad_alloc, say) no reader may throw.
 Reading read_every_way(const std::filesystem::path& file);
 
 /// What differs between two files, triangles taken corner by corner; empty: nothing. Parts of objects are
