@@ -34,9 +34,9 @@ struct Column {
 
 namespace column {
 using hdf5::Element;
-/// For rows, which are most of a large bake: what is packed filtered takes 7 to 12 % less than by level 4, in
-/// four times the time.
-inline constexpr hdf5::Deflate deflate_best{9, false}, deflate_filtered{9, true};
+/// For rows, which are most of a large bake: 7 to 9 % less than by the usual, in twice the time. Level 9
+/// takes up to four times as long again, most of all where rows repeat much, for at most 2 %.
+inline constexpr hdf5::Deflate deflate_rows{7, true};
 inline constexpr Column vertices{"/scene/vertices", Element::f32, 3,
                                  "[V,3] x, y, z of each vertex, m, relative to the root's origin"};
 inline constexpr Column triangles{"/scene/triangles", Element::u32, 3, "[T,3] vertices of each triangle"};
@@ -101,22 +101,21 @@ inline constexpr Column cell_worker{"/cells/worker", Element::u32, 1,
 inline constexpr Column worker_name{"/cells/worker_name", Element::text, 1,
                                     "[W] name of each that baked cells. There with worker alone"};
 inline constexpr Column pvs_begin{"/pvs/begin", Element::u64, 1,
-                                  "[R+1] entries of row r are begin[r] to begin[r+1]-1", deflate_best};
+                                  "[R+1] entries of row r are begin[r] to begin[r+1]-1"};
 inline constexpr Column pvs_object_step{
     "/pvs/object_step", Element::u32, 1,
     "[K] visible objects, ascending in a row: the first of a row, then the difference to the one before it",
-    deflate_filtered};
+    deflate_rows};
 inline constexpr Column pvs_form{
     "/pvs/form", Element::u16, 1,
-    "[K] which form of the object is visible: row form_begin[object] + form of form_index", deflate_filtered};
+    "[K] which form of the object is visible: row form_begin[object] + form of form_index", deflate_rows};
 inline constexpr Column pvs_form_begin{"/pvs/form_begin", Element::u64, 1,
-                                       "[N+1] forms of object o are form_begin[o] to form_begin[o+1]-1",
-                                       deflate_best};
+                                       "[N+1] forms of object o are form_begin[o] to form_begin[o+1]-1"};
 inline constexpr Column pvs_form_index{
     "/pvs/form_index", Element::i8, 3,
     "[F,3] x, y, z of each form. A triangle is visible when z >= 1 and its last z-slice >= z, or x > 0 and "
     "its first x-slice <= x, or x < 0 and its last x-slice >= -x+1, or the same for y",
-    deflate_filtered};
+    deflate_rows};
 
 inline constexpr Column verified_cell{"/verification/cells/cell", Element::u32, 1,
                                       "[v] view-cells that were checked, ascending"};
