@@ -51,8 +51,9 @@ struct MergeResult {
 /// came from, by the shard's name without its extension. Cells without a record are an error unless
 /// `partial`, which records them all visible: such a file is a valid PVS. Safe at any time, also while a bake
 /// writes the shards and beside another merge: the old file stays until the new one is whole and checked, and
-/// what killed merges left is removed. Takes about 45 bytes a cell, 20 an object, and at most 50 MB. \throw
-/// Error(stopped_early) when cells are missing and not `partial`; else as read_journal and write_pvs.
+/// what killed merges left is removed. Takes about 45 bytes a cell, 25 an object, 25 a form
+/// (pvs/forms.h), and at most 50 MB. \throw Error(stopped_early) when cells are missing and not `partial`;
+/// else as read_journal and write_pvs.
 MergeResult merge_run(const RunPaths& run, const std::filesystem::path& output, bool partial,
                       const WorkHeard& heard = {});
 

@@ -6,12 +6,17 @@
 
 namespace veduta {
 
+/// Makes the groups in which the datasets of a city are; those of places say where their lattices lie.
+void write_scene_groups(hdf5::Output& output);
+void write_place_groups(hdf5::Output& output, const Navigation& lattices);
 /// Writes /scene. Adds the digests of what it wrote.
 void write_scene_columns(hdf5::Output& output, const City& city, ColumnDigests& digests);
 /// Writes /navigation and /cells/bounds, likewise.
 void write_place_columns(hdf5::Output& output, const City& city, ColumnDigests& digests);
+/// Copies what these two wrote, from a prepared city whose outline was read: its digests hold.
+void copy_city(hdf5::Output& output, const hdf5::Input& from, const CityOutline& city);
 enum class CityParts { all, to_bake, to_look_up };
-/// Reads what these two wrote, or what is needed of it: to bake, surfaces and ground have no values, and to
+/// Reads what was written, or what is needed of it: to bake, surfaces and ground have no values, and to
 /// look up cells, free space has none either; their digests are those that they should have. Digests are
 /// compared, relations not yet.
 /// \param bounds  replaced by what the file says of the bounds of each object

@@ -17,6 +17,14 @@ bool of_city(const Column& column) {
 
 }  // namespace
 
+void copy_city(hdf5::Output& output, const hdf5::Input& from, const CityOutline& city) {
+  output.require_space(from.file_bytes());
+  write_scene_groups(output);
+  write_place_groups(output, city.frame.navigation);
+  for (const Column* column : column::all)
+    if (of_city(*column)) hdf5::copy_column(output, from, *column);
+}
+
 CityOutline read_city_outline(const std::filesystem::path& city_file, const WorkHeard& heard) {
   const hdf5::Input input(city_file);
   const RootAttributes root = read_root(input, city_format);

@@ -69,9 +69,13 @@ void write_geometry(Output& output, const Scene& scene, ColumnDigests& digests) 
 
 }  // namespace
 
+void write_scene_groups(Output& output) {
+  for (const char* group : {"/scene", "/scene/objects", "/scene/parts"}) output.group(group);
+}
+
 void write_scene_columns(Output& output, const City& city, ColumnDigests& digests) {
   const Scene& scene = city.scene;
-  for (const char* group : {"/scene", "/scene/objects", "/scene/parts"}) output.group(group);
+  write_scene_groups(output);
   static_assert(sizeof(glm::vec3) == 12 && sizeof(glm::uvec3) == 12 && sizeof(Box) == 24 &&
                 sizeof(SliceCounts) == 3);
   write_geometry(output, scene, digests);
@@ -97,26 +101,25 @@ void write_scene_columns(Output& output, const City& city, ColumnDigests& digest
 
 namespace {
 
+void write_lattice(Output& output, const char* group, const OctreeForest& forest) {
+  output.group(group);
+  output.attribute(group, "lower", std::vector<float>{forest.lower.x, forest.lower.y, forest.lower.z});
+  output.attribute(group, "leaf_size_m", std::vector<float>{forest.leaf_size_m});
+  output.attribute(group, "depth", forest.depth);
+}
+
 void write_forest(Output& output, const column::ForestColumns& columns, const OctreeForest& forest,
                   ColumnDigests& digests) {
   static_assert(sizeof(glm::ivec3) == 12);
-  output.group(columns.group);
-  output.attribute(columns.group, "lower",
-                   std::vector<float>{forest.lower.x, forest.lower.y, forest.lower.z});
-  output.attribute(columns.group, "leaf_size_m", std::vector<float>{forest.leaf_size_m});
-  output.attribute(columns.group, "depth", forest.depth);
   write_rows(output, columns.roots, forest.roots, digests);
   write_rows(output, columns.states, forest.states, digests);
   write_rows(output, columns.first_child, forest.first_child, digests);
 }
 
 void write_navigation(Output& output, const Navigation& navigation, ColumnDigests& digests) {
-  for (const char* group : {"/navigation", "/navigation/ground"}) output.group(group);
   write_forest(output, column::free_forest, navigation.free, digests);
   write_forest(output, column::surface_forest, navigation.surfaces, digests);
   const HeightField& ground = navigation.ground;
-  output.attribute("/navigation/ground", "lower", std::vector<float>{ground.lower_x, ground.lower_y});
-  output.attribute("/navigation/ground", "step_m", std::vector<float>{ground.step_m});
   const uint32_t nx = ground.height.empty() ? 0 : ground.nx, ny = ground.height.empty() ? 0 : ground.ny;
   ColumnWriter writer(output, column::ground_height, ny, 0, nx);
   writer.append(ground.height.data(), ny);
@@ -125,9 +128,20 @@ void write_navigation(Output& output, const Navigation& navigation, ColumnDigest
 
 }  // namespace
 
-void write_place_columns(Output& output, const City& city, ColumnDigests& digests) {
-  write_navigation(output, city.navigation, digests);
+void write_place_groups(Output& output, const Navigation& lattices) {
+  output.group("/navigation");
+  write_lattice(output, column::free_forest.group, lattices.free);
+  write_lattice(output, column::surface_forest.group, lattices.surfaces);
+  constexpr const char* ground = "/navigation/ground";
+  output.group(ground);
+  output.attribute(ground, "lower", std::vector<float>{lattices.ground.lower_x, lattices.ground.lower_y});
+  output.attribute(ground, "step_m", std::vector<float>{lattices.ground.step_m});
   output.group("/cells");
+}
+
+void write_place_columns(Output& output, const City& city, ColumnDigests& digests) {
+  write_place_groups(output, city.navigation);
+  write_navigation(output, city.navigation, digests);
   write_rows(output, column::cell_bounds, city.cells, digests);
 }
 

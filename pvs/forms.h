@@ -33,7 +33,7 @@ struct Forms {
 std::optional<std::string> sum_steps(PvsEntry* first, PvsEntry* last, size_t objects);
 
 /// Numbers the forms of each object in the order in which they come, while rows are written. Takes 18 to 23
-/// bytes for each form, 2 for each object, and 3 and 8 more in the end.
+/// bytes for each form and 2 for each object, and 3 and 8 more in the end.
 class FormTable {
  public:
   explicit FormTable(size_t objects) : count_(objects) {}

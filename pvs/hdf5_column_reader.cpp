@@ -51,7 +51,7 @@ ColumnReader::ColumnReader(const Input& input, const Column& column) : input_(in
     input.fail(column.path, fmt::format("{} columns where {} belong", columns_, column.columns));
   stored_bytes_ = H5Dget_storage_size(dataset_.get());
   if (stored_bytes_ == 0 && rows_ > 0 && columns_ > 0) input.fail(column.path, index_damage);
-  const uint64_t element = element_bytes(column.element, text_bytes);
+  const uint64_t element = hdf5::element_bytes(column.element, text_bytes);
   const uint64_t most = std::min(stored_bytes_, input.file_bytes()) * deflate_ratio_limit;
   if ((column.columns == 0 && columns_ > most / element + 6) ||
       (rows_ > 0 && columns_ > 0 && rows_ > most / (element * columns_)))
@@ -83,8 +83,7 @@ void ColumnReader::check_storage() {
   if (!same) input_.fail(column_.path, "not packed by shuffle, deflate and fletcher32");
 }
 
-void ColumnReader::read_chunk(uint64_t first, std::vector<std::byte>& packed,
-                              std::vector<std::byte>& chunk) const {
+void ColumnReader::read_packed(uint64_t first, std::vector<std::byte>& packed) const {
   // HDF5 fills in for chunks that the index does not know.
   const hsize_t offset[2] = {first, 0};
   unsigned skipped = 0;
@@ -96,8 +95,14 @@ void ColumnReader::read_chunk(uint64_t first, std::vector<std::byte>& packed,
     input_.fail(column_.path, index_damage);
   packed.resize(bytes);
   uint32_t filters = 0;
-  if (H5Dread_chunk(dataset_.get(), H5P_DEFAULT, offset, &filters, packed.data()) < 0 ||
-      !unpack_chunk(packed, element_bytes_, chunk))
+  if (H5Dread_chunk(dataset_.get(), H5P_DEFAULT, offset, &filters, packed.data()) < 0)
+    input_.fail(column_.path, "damaged: a chunk cannot be read; get the file again, or bake again");
+}
+
+void ColumnReader::read_chunk(uint64_t first, std::vector<std::byte>& packed,
+                              std::vector<std::byte>& chunk) const {
+  read_packed(first, packed);
+  if (!unpack_chunk(packed, element_bytes_, chunk))
     input_.fail(column_.path, "damaged: a checksum does not hold; get the file again, or bake again");
 }
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <thread>
 
+#include "pvs/hdf5_input.h"
 #include "pvs/hdf5_output.h"
 #include "pvs/hdf5_pack.h"
 
@@ -107,11 +108,31 @@ std::string ColumnWriter::finish() {
   output_.write_submitted();
   const uint64_t extent[2] = {rows_, columns_};
   digest_.update(extent, column_.columns == 1 ? 8 : 16);
-  const std::string hex = digest_.hex();
+  return close(digest_.hex());
+}
+
+std::string ColumnWriter::copy(const ColumnReader& from) {
+  std::vector<std::byte> packed;
+  for (uint64_t first = 0; row_bytes_ > 0 && first < from.rows(); first += chunk_rows_) {
+    from.read_packed(first, packed);
+    write_chunk(packed, std::min<uint64_t>(chunk_rows_, from.rows() - first));
+  }
+  return close(from.stated_digest());
+}
+
+std::string ColumnWriter::close(const std::string& hex) {
   output_.text_attribute(dataset_.get(), column_.path, "description", column_.description);
   output_.text_attribute(dataset_.get(), column_.path, "digest", hex);
   if (!dataset_.close()) output_.fail(column_.path, "cannot close the dataset");
   return hex;
+}
+
+std::string copy_column(Output& output, const Input& from, const Column& column) {
+  const ColumnReader reader(from, column);
+  ColumnWriter writer(output, column, reader.rows(), reader.element_bytes(), reader.columns());
+  if (writer.chunk_rows() != reader.chunk_rows())
+    from.fail(column.path, "chunks of another shape than this program writes");
+  return writer.copy(reader);
 }
 
 std::string write_texts(Output& output, const Column& column, size_t count,

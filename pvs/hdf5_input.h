@@ -61,6 +61,8 @@ class ColumnReader {
   uint64_t rows() const { return rows_; }
   uint64_t columns() const { return columns_; }
   size_t row_bytes() const { return row_bytes_; }
+  size_t element_bytes() const { return element_bytes_; }
+  uint64_t chunk_rows() const { return chunk_rows_; }
   uint64_t stored_bytes() const { return stored_bytes_; }
 
   /// Rows of a block: whole chunks of about chunk_bytes, so that none is unpacked twice.
@@ -68,6 +70,9 @@ class ColumnReader {
   /// Reads rows [first, first + count), `first` a multiple of block_rows() and count at most that. Chunks and
   /// their checksums are checked; digests are of whole datasets.
   void read_block(uint64_t first, uint64_t count, std::byte* out) const;
+
+  /// Reads the chunk that begins with a row, a multiple of chunk_rows(), as it is stored.
+  void read_packed(uint64_t first, std::vector<std::byte>& packed) const;
 
   /// Hands out all rows in order, then compares the digest. \return it. May throw after `visit` has seen
   /// wrong rows.

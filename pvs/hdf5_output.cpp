@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <sys/statvfs.h>
 
-#include "pvs/hdf5_input.h"
 #include "scene/error.h"
 
 namespace veduta::hdf5 {
@@ -123,12 +122,6 @@ void Output::attribute(const char* object, const char* name, const std::vector<f
 void Output::attribute(const char* object, const char* name, const std::array<double, 3>& values) {
   Handle opened(H5Oopen(file_.get(), object, H5P_DEFAULT), H5Oclose);
   raw_attribute(opened.get(), object, name, H5T_IEEE_F64LE, values.data(), values.size());
-}
-
-void Output::copy(const Input& from, const char* path) {
-  require_space(from.file_bytes());
-  if (H5Ocopy(from.id(), path, file_.get(), path, H5P_DEFAULT, H5P_DEFAULT) < 0)
-    fail(path, "cannot be copied");
 }
 
 void Output::remove(const char* path) {

@@ -19,6 +19,7 @@ namespace veduta::hdf5 {
 /// Copies a file that an Output closed, for one that goes on with it. \throw Error(input_output).
 void copy_output(const std::filesystem::path& from, const std::filesystem::path& to);
 
+class ColumnReader;
 class ColumnWriter;
 class Input;
 
@@ -38,9 +39,6 @@ class Output {
   void attribute(const char* object, const char* name, double value);
   void attribute(const char* object, const char* name, const std::vector<float>& values);
   void attribute(const char* object, const char* name, const std::array<double, 3>& values);
-
-  /// Copies a group with all that is in it, or a dataset, as it is packed.
-  void copy(const Input& from, const char* path);
 
   /// Takes a group or a dataset out; what is written after it may take its room.
   void remove(const char* path);
@@ -86,10 +84,15 @@ class ColumnWriter {
   void append(const void* rows, size_t count);
   /// Writes what is left and the attributes, and closes. \return the digest.
   std::string finish();
+  /// Instead of both: takes over the chunks of a dataset of the same shape as they are packed, and its
+  /// digest.
+  std::string copy(const ColumnReader& from);
   uint64_t rows() const { return rows_; }
+  uint64_t chunk_rows() const { return chunk_rows_; }
 
  private:
   friend class Output;
+  std::string close(const std::string& hex);
   void submit_pending();
   void write_chunk(const std::vector<std::byte>& packed, uint64_t rows);
 
@@ -110,6 +113,10 @@ std::string write_rows(Output& output, const Column& column, const std::vector<T
   writer.append(rows.data(), rows.size());
   return writer.finish();
 }
+
+/// Copies a dataset as it is packed. Not what HDF5 says of it: that is written anew, the index of chunks with
+/// a checksum even where the old one has none. \return the digest that it states.
+std::string copy_column(Output& output, const Input& from, const Column& column);
 
 /// Writes texts of fixed length, padded with NUL: no variable-length types, which have hurt many readers.
 /// `text(i)` is asked for i below `count`, in order and twice. \return the digest.

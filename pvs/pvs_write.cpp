@@ -202,11 +202,7 @@ std::string write_pvs(const std::filesystem::path& file, const std::filesystem::
                       const WorkHeard& heard, const std::vector<std::string>& workers) {
   RowsJob job{file, city.cells, city.slices, city.frame, cells, workers, heard};
   return job.write(header, [&](Output& output, ColumnDigests& digests) {
-    const hdf5::Input input(city_file);
-    output.copy(input, "/scene");
-    output.copy(input, "/navigation");
-    output.group("/cells");
-    output.copy(input, column::cell_bounds.path);
+    copy_city(output, hdf5::Input(city_file), city);
     digests = city.digests;
   });
 }

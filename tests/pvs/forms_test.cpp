@@ -5,7 +5,10 @@
 #include <map>
 #include <random>
 
+#include "pvs/hdf5_output.h"
 #include "pvs/pvs_check.h"
+#include "pvs/pvs_stream.h"
+#include "tests/pvs/small_city.h"
 
 namespace veduta {
 namespace {
@@ -109,6 +112,43 @@ TEST(Steps, AddUp) {
   EXPECT_EQ(sum({3, 0}), "object 3 comes twice");
   EXPECT_EQ(sum({3, 6, 1}), "object 10 of 10");
   EXPECT_EQ(sum({4, 0xfffffffe}), "object 4294967298 of 10") << "2 in 32 bits";
+}
+
+/// What a file says after one of its datasets was replaced by another, digest and all.
+template <typename T>
+std::string message_with(const Column& column, const std::vector<T>& rows) {
+  test::TemporaryDirectory directory;
+  write_pvs(directory / "a.h5", test::small_city(), test::small_header(), test::small_row);
+  {
+    hdf5::Output output(directory / "a.h5", hdf5::Output::Start::go_on);
+    output.remove(column.path);
+    hdf5::write_rows(output, column, rows);
+    output.close();
+  }
+  std::string message;
+  EXPECT_EQ(test::status_of([&] { read_pvs(directory / "a.h5"); }, &message), ExitStatus::bad_input);
+  EXPECT_EQ(test::status_of([&] { PvsStream(directory / "a.h5"); }), ExitStatus::bad_input);
+  return message.substr(message.find(": ") + 2);
+}
+
+/// The file has rows {}, {0} and {0, 2}: steps 0, 0, 2; forms 0, 0, 0; of objects 0 and 2 one form each.
+TEST(Forms, OfAFileThatDoNotFitTogetherAreRefused) {
+  using Steps = std::vector<uint32_t>;
+  EXPECT_EQ(message_with(column::pvs_object_step, Steps{0, 0, 0}),
+            "/pvs/object_step: row 2: object 0 comes twice");
+  EXPECT_EQ(message_with(column::pvs_object_step, Steps{0, 0, 6}), "/pvs/object_step: row 2: object 6 of 6");
+  EXPECT_EQ(message_with(column::pvs_object_step, Steps{0, 0, 1}),
+            "/pvs/form: entry 2: no such form of its object");
+  EXPECT_EQ(message_with(column::pvs_object_step, Steps{0, 0}),
+            "/pvs/form: not one for each of /pvs/object_step");
+  EXPECT_EQ(message_with(column::pvs_form, std::vector<uint16_t>{0, 1, 0}),
+            "/pvs/form: entry 1: no such form of its object");
+  const std::string bounds =
+      "/pvs/form_begin: not one more than there are objects, from 0 to the number of forms";
+  EXPECT_EQ(message_with(column::pvs_form_begin, std::vector<uint64_t>{0, 1, 1, 2}), bounds);
+  EXPECT_EQ(message_with(column::pvs_form_index, std::vector<VisibilityIndex>{completely_visible}), bounds);
+  EXPECT_EQ(message_with(column::pvs_form_index, std::vector<VisibilityIndex>{{0, 0, 3}, {-3, 0, 2}}),
+            "/pvs/form_index: form 0: 0, 0, 3 is outside of the slices of object 0");
 }
 
 }  // namespace

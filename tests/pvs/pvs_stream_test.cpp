@@ -217,20 +217,19 @@ TEST(PvsStream, RefusesWhatIsNoFileOfOurs) {
   EXPECT_NE(message.find("veduta-city"), std::string::npos) << message;
 }
 
-TEST(PvsStream, SaysWhatToDoWithAFileOfVersion3) {
+TEST(PvsStream, NamesTheVersionOfAFileOfAnother) {
   TemporaryDirectory directory;
   write_pvs(directory / "a.h5", test::small_city(), test::small_header(), test::small_row);
   const hid_t file = H5Fopen((directory / "a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
   const hid_t version = H5Aopen(file, "version", H5P_DEFAULT);
-  const uint32_t before = 3;
-  ASSERT_GE(H5Awrite(version, H5T_NATIVE_UINT32, &before), 0);
+  const uint32_t next = 5;
+  ASSERT_GE(H5Awrite(version, H5T_NATIVE_UINT32, &next), 0);
   H5Aclose(version);
   ASSERT_GE(H5Ldelete(file, "/pvs", H5P_DEFAULT), 0) << "which may lack what this one has";
   H5Fclose(file);
   std::string message;
   EXPECT_EQ(status_of([&] { PvsStream(directory / "a.h5"); }, &message), ExitStatus::bad_input);
-  EXPECT_NE(message.find("version 3, this program reads 4; merge its run directory again, or bake again"),
-            std::string::npos)
+  EXPECT_NE(message.find("version 5, this program reads 4; use the version that wrote it"), std::string::npos)
       << message;
 }
 
