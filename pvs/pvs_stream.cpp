@@ -126,6 +126,7 @@ void PvsStream::read_row(uint32_t row, PvsRow& out) const {
   const uint64_t first = index_.row_begin[row], count = index_.row_begin[row + 1] - first;
   if (count > index_.objects.size())
     open_->input.fail(column::pvs_begin.path, fmt::format("row {} lists more than there are objects", row));
+  keeps_row(row);  // so that steps and forms come from memory together, not one after the other
   out.resize(count);
   PvsEntry* entry = out.data();
   open_->entry_step.visit(first, count, [&](const std::byte* steps, uint64_t here) {
