@@ -182,8 +182,8 @@ City PvsStream::read_objects(uint32_t first, uint32_t last) const {
     out += run.count;
   }
   input.refuse(find_scene_defect(city));
-  // The index of a chunked dataset has no checksum of its own: were a chunk taken for another, the bounds,
-  // whose digest was compared, would not be those of the triangles.
+  // Checksums say nothing of a chunk that took the place of another on purpose: then the bounds, whose digest
+  // was compared, are not those of the triangles.
   for (uint32_t i = first; i < last; ++i)
     if (scene.bounds(i - first) != index_.bounds[i])
       input.fail(column::vertices.path,

@@ -21,7 +21,7 @@ row() {
 row "R1 kill loop" '^kill loop: ' env VEDUTA_KILLS=200 "$build/tests/kill_loop_test" --gtest_filter='*Nothing*'
 # Crashes, segfaults, hangs, cells that always fail, workers and ranks that stop; three times.
 row "R2, R4, R5" '^\[  PASSED' "$build/tests/bake_faults_test" --gtest_repeat=3
-row "R3, R9 mutants" '^\[  PASSED' env VEDUTA_MUTANTS=3000 "$build/tests/pvs_damage_test"
+row "R3, R9 mutants" '^\[  PASSED' env VEDUTA_MUTANTS=30000 "$build/tests/pvs_mutants_test"
 row "R7 kills during the merge" '^\[  PASSED' env VEDUTA_MERGE_KILLS=50 "$build/tests/merge_kill_test"
 row "R7 full disk" '^(74|skipped)' bash tests/farm/full_disk_test.sh "$build/bin" "$build/tests/fake_worker"
 

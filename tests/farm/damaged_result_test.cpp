@@ -1,5 +1,5 @@
 // The programs that open a result, given damaged ones (R9): an error in one line or the answer for what was
-// written, and never a signal or a long wait. The loader itself has tests/pvs/pvs_damage_test.
+// written, and never a signal or a long wait. The loader itself has tests/fuzz/pvs_mutants_test.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,10 +1,6 @@
-// A damaged file that is read piece by piece is an error message or reads as what was written.
-// VEDUTA_MUTANTS=3000 makes as many instead of the few of every day.
+// Chunk indices that lie, in a file that is read piece by piece, are an error message or change nothing.
+// Mutants of all kinds: tests/fuzz/pvs_mutants_test.
 #include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <random>
 
 #include "pvs/pvs_stream.h"
 #include "tests/pvs/chunk_index.h"
@@ -21,32 +17,6 @@ extern "C" const char* __lsan_default_suppressions() {
 namespace veduta {
 namespace {
 
-enum class Found { nothing, at_opening, while_reading };
-
-/// Reads all of a file in pieces, backwards so that order does not help. What it reads has to be what was
-/// written.
-Found read(const std::filesystem::path& path, const std::string& bytes, const PvsFile& written) {
-  test::write_bytes(path, bytes);
-  bool opened = false;
-  try {
-    PvsStream stream(path);
-    opened = true;
-    stream.read_navigation();
-    test::expect_same_index(stream.index(), written);
-    for (size_t row = written.row_begin.size() - 1; row-- > 0;)
-      test::expect_same_row(stream, written, static_cast<uint32_t>(row));
-    for (auto i = static_cast<uint32_t>(written.city.scene.objects.size()); i-- > 0;)
-      test::expect_same_objects(stream, written, i, i + 1);
-    return Found::nothing;
-  } catch (const Error& error) {
-    const std::string message = error.what();
-    EXPECT_EQ(error.status(), ExitStatus::bad_input) << message;
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    EXPECT_NE(message.find(path.string() + ": /"), std::string::npos) << message;
-    return opened ? Found::while_reading : Found::at_opening;
-  }
-}
-
 class PvsStreamDamage : public testing::Test {
  protected:
   PvsStreamDamage() {
@@ -55,57 +25,12 @@ class PvsStreamDamage : public testing::Test {
     store_verification(file, read_pvs(file), test::small_verification());
     bytes_ = test::read_bytes(file);
     content_ = read_pvs(file);
-    for (size_t i = 0; i < bytes_.size(); ++i)
-      if (bytes_[i] != 0) used_.push_back(i);  // most zeros are room that HDF5 keeps for more
   }
-  static int mutants(int usual, double share) {
-    const char* const asked = std::getenv("VEDUTA_MUTANTS");
-    return asked ? std::max(1, static_cast<int>(std::atoi(asked) * share)) : usual;
-  }
-  Found read_mutant(const std::string& bytes) { return read(directory_ / "mutant.h5", bytes, content_); }
 
   test::TemporaryDirectory directory_;
   std::string bytes_;
-  std::vector<size_t> used_;
   PvsFile content_;
 };
-
-TEST_F(PvsStreamDamage, BitFlips) {
-  std::mt19937 random(13);
-  int at_opening = 0, while_reading = 0;
-  const int all = mutants(300, 0.6);
-  for (int i = 0; i < all && !HasFailure(); ++i) {
-    const size_t byte = used_[random() % used_.size()];
-    SCOPED_TRACE("byte " + std::to_string(byte));
-    std::string bytes = bytes_;
-    bytes[byte] = static_cast<char>(bytes[byte] ^ (1 << (random() % 8)));
-    const Found found = read_mutant(bytes);
-    at_opening += found == Found::at_opening;
-    while_reading += found == Found::while_reading;
-  }
-  EXPECT_GT(at_opening, all / 4);
-  EXPECT_GT(while_reading, 0);
-}
-
-TEST_F(PvsStreamDamage, RunsOfRubbish) {
-  std::mt19937 random(14);
-  int found = 0;
-  const int all = mutants(150, 0.4);
-  for (int i = 0; i < all && !HasFailure(); ++i) {
-    const size_t length = 2 + random() % 63;
-    const size_t first = std::min(used_[random() % used_.size()], bytes_.size() - length);
-    SCOPED_TRACE("byte " + std::to_string(first));
-    std::string bytes = bytes_;
-    for (size_t k = first; k < first + length; ++k) bytes[k] = static_cast<char>(random());
-    found += read_mutant(bytes) != Found::nothing;
-  }
-  EXPECT_GT(found, all / 4);
-}
-
-TEST_F(PvsStreamDamage, CutAnywhere) {
-  for (size_t i = 0; i < 40; ++i)
-    EXPECT_NE(read_mutant(bytes_.substr(0, bytes_.size() * i / 40)), Found::nothing) << i;
-}
 
 /// The chunk indices of two datasets, each well-formed by itself, mixed up and their checksums made to hold:
 /// where triangles lie is held against bounds that were checked at the opening.
