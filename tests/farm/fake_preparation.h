@@ -57,10 +57,12 @@ class FakePreparation {
   }
 
   void take(const std::string& stage, uint32_t part) const {
-    pid_t holder = 0;
-    if (std::ifstream(held(stage, part)) >> holder && kill(holder, 0) == 0)
+    // A worker of a bake that was killed dies with its shepherd, but may be a zombie for a moment longer.
+    pid_t holder = 0, shepherd = 0;
+    if (std::ifstream(held(stage, part)) >> holder >> shepherd && kill(holder, 0) == 0 &&
+        kill(shepherd, 0) == 0)
       throw Error(ExitStatus::bad_input, held(stage, part).string() + ": in two hands");
-    std::ofstream(held(stage, part)) << getpid();
+    std::ofstream(held(stage, part)) << getpid() << ' ' << getppid();
   }
 
   /// Names the neighbours without air, so that one who asks after a death hears the same.
