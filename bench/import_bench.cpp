@@ -7,8 +7,6 @@
 // fastest is reported, and the largest peak. `read_s` is the time to bring the same files into memory
 // (archives are unpacked), in the same process before the import, so that both find them in the page cache.
 #include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -19,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/error.h"
+#include "bench/in_child.h"
 #include "scene/import.h"
 #include "scene/model_files.h"
 
@@ -52,6 +50,8 @@ Json run(const Paths& paths) {
   const double import_s = seconds_since(begin);
   uint64_t objects = 0;
   for (const auto& [kind, count] : result.report.objects_by_kind) objects += count;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
   return {{"format", result.report.format},
           {"files", result.report.files},
           {"bytes", result.report.bytes_read},
@@ -59,40 +59,8 @@ Json run(const Paths& paths) {
           {"instances", result.report.instances},
           {"triangles", result.scene.triangle_count()},
           {"seconds", import_s},
-          {"read_s", read_s}};
-}
-
-// Runs in a child, which answers in one line.
-Json run_in_child(const Paths& paths) {
-  int ends[2];
-  if (pipe(ends) != 0) throw std::runtime_error("no pipe");
-  const pid_t child = fork();
-  if (child < 0) throw std::runtime_error("no child process");
-  if (child == 0) {
-    close(ends[0]);
-    Json answer;
-    try {
-      answer = run(paths);
-    } catch (const std::exception& error) {
-      answer = {{"error", error.what()}};
-    }
-    const std::string text = answer.dump();
-    const bool written = write(ends[1], text.data(), text.size()) == static_cast<ssize_t>(text.size());
-    _exit(written ? 0 : 1);
-  }
-  close(ends[1]);
-  std::string text;
-  char block[4096];
-  for (ssize_t count = 0; (count = read(ends[0], block, sizeof block)) > 0;)
-    text.append(block, static_cast<size_t>(count));
-  close(ends[0]);
-  int status = 0;
-  rusage usage{};
-  wait4(child, &status, 0, &usage);
-  if (text.empty()) return {{"error", "the process died with status " + std::to_string(status)}};
-  Json answer = Json::parse(text);
-  answer["peak_memory_mb"] = static_cast<double>(usage.ru_maxrss) * 1.024e-3;
-  return answer;
+          {"read_s", read_s},
+          {"peak_memory_mb", static_cast<double>(usage.ru_maxrss) * 1.024e-3}};
 }
 
 Json measure(const Json& model, int repeat) {
@@ -102,8 +70,12 @@ Json measure(const Json& model, int repeat) {
   Json best;
   double peak_mb = 0;
   for (int i = 0; i < repeat; ++i) {
-    Json answer = run_in_child(paths);
-    if (answer.contains("error")) return {{"model", model}, {"error", answer["error"]}};
+    Json answer;
+    try {
+      answer = bench::in_child([&] { return run(paths); });
+    } catch (const std::runtime_error& error) {
+      return {{"model", model}, {"error", error.what()}};
+    }
     peak_mb = std::max(peak_mb, answer["peak_memory_mb"].get<double>());
     if (best.is_null() || answer["seconds"] < best["seconds"]) best = std::move(answer);
   }
